@@ -13,7 +13,7 @@ using namespace phongpd;
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const World world({ReadSolid(argv[1]), {ReadSolid(argv[2])}});
-  TrajectoryProblem problem = MakeTrajectoryProblem(world);
+  TrajectoryProblem problem = TrajectoryProblemIn(world);
   problem.start = {-1.0, 0.1, 0.0};
   problem.goal = {3.0, -0.1, 0.1};
   const PipelineResult result = TrajectoryPipeline(world, problem).Solve();

@@ -72,8 +72,8 @@ TrajectoryProblem MakeTrajectoryProblem(
   return problem;
 }
 
-TrajectoryProblem MakeTrajectoryProblem(const World& world,
-                                        const SignedMetricOptions& metric) {
+TrajectoryProblem TrajectoryProblemIn(const World& world,
+                                      const SignedMetricOptions& metric) {
   TrajectoryProblem problem =
       MakeTrajectoryProblem(world.Spaces(SpaceLayout::kMerged).spaces, metric,
                             world.workspace().bounds);

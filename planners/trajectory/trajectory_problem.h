@@ -60,8 +60,8 @@ TrajectoryProblem MakeTrajectoryProblem(
 
 // The same of a world: its obstacles as one contact space, which is built on
 // first use, its bounds and its D.  Throws what World::Spaces throws, too.
-TrajectoryProblem MakeTrajectoryProblem(const World& world,
-                                        const SignedMetricOptions& metric = {});
+TrajectoryProblem TrajectoryProblemIn(const World& world,
+                                      const SignedMetricOptions& metric = {});
 
 // D of the problem, user's unit; > 0.
 double Diagonal(const TrajectoryProblem& problem);
