@@ -37,16 +37,15 @@ template <typename Room>
 class Shortener {
  public:
   Shortener(const std::vector<Vector3d>& path, const Room& segments,
-            const ShorteningOptions& options)
+            const ShorteningOptions& options, double kept_share)
       : segments_(segments), options_(options), random_(options.seed) {
     for (std::size_t k = 0; k < path.size(); ++k) {
       points_.push_back({path[k], static_cast<double>(k), false});
       if (k == 0) continue;
       floor_.push_back(std::min(
           options.clearance,
-          options.kept_share *
-              segments.Distance(path[k - 1], path[k],
-                                options.clearance / options.kept_share)));
+          kept_share * segments.Distance(path[k - 1], path[k],
+                                         options.clearance / kept_share)));
     }
   }
 
@@ -194,17 +193,19 @@ class Shortener {
 
 std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
                                   const TriangleBvh& segments,
-                                  const ShorteningOptions& options) {
+                                  const ShorteningOptions& options,
+                                  double kept_share) {
   if (path.size() < 3) return path;
-  return Shortener<TriangleBvh>(path, segments, options).Run();
+  return Shortener<TriangleBvh>(path, segments, options, kept_share).Run();
 }
 
 std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
                                   const FreeSpace& space,
-                                  const ShorteningOptions& options) {
+                                  const ShorteningOptions& options,
+                                  double kept_share) {
   if (path.size() < 3) return path;
   const RoomAround room(space);
-  return Shortener<RoomAround>(path, room, options).Run();
+  return Shortener<RoomAround>(path, room, options, kept_share).Run();
 }
 
 }  // namespace phongpd

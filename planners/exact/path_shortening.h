@@ -17,7 +17,6 @@ inline constexpr double kClearanceKept = 0.8;
 struct ShorteningOptions {
   // Clearance that is enough, user's unit; ≥ 0.
   double clearance = 0.0;
-  double kept_share = kClearanceKept;  // in (0, 1]
   int random_cuts = 200;
   int pulls = 12;  // rounds over all inner points
   std::uint64_t seed = 1;
@@ -27,13 +26,14 @@ struct ShorteningOptions {
 // seen, straight cuts between random points, and points pulled towards the
 // line between their neighbours.  Every segment of the result is free by an
 // exact test and keeps its clearance relative to the path *given*, so that
-// repeated cuts do not add up.  Ends stay.  Same arguments, same path.
+// repeated cuts do not add up, by kept_share, in (0, 1].  Ends stay.  Same
+// arguments, same path.
 std::vector<Eigen::Vector3d> ShortenPath(
     const std::vector<Eigen::Vector3d>& path, const TriangleBvh& segments,
-    const ShorteningOptions& options);
+    const ShorteningOptions& options, double kept_share = kClearanceKept);
 // The same for a path that is free in `space`, bounds included.
 std::vector<Eigen::Vector3d> ShortenPath(
     const std::vector<Eigen::Vector3d>& path, const FreeSpace& space,
-    const ShorteningOptions& options);
+    const ShorteningOptions& options, double kept_share = kClearanceKept);
 
 }  // namespace phongpd

@@ -92,9 +92,10 @@ void PlanningSurface::Keep(std::vector<Vector3d> raw_path, int random_cuts,
   CenterPath(contact, segments, LiftOf(*result), kept, &raw_path);
   ShorteningOptions shortening;
   shortening.clearance = result->wanted_clearance;
-  if (result->keeps_clearance) shortening.kept_share = 1.0;
   shortening.random_cuts = random_cuts;
-  std::vector<Vector3d> path = ShortenPath(raw_path, segments, shortening);
+  std::vector<Vector3d> path =
+      ShortenPath(raw_path, segments, shortening,
+                  result->keeps_clearance ? 1.0 : kClearanceKept);
   Offer(std::move(raw_path), std::move(path), result);
 }
 

@@ -120,7 +120,6 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
   ShorteningOptions shortening;
   shortening.clearance = result->wanted_clearance;
   shortening.random_cuts = options_.random_cuts;
-  if (result->keeps_clearance) shortening.kept_share = 1.0;
   join_ends(&result->raw_path);
   for (std::vector<Vector3d>& route : result->routes) join_ends(&route);
   join_ends(&result->path);
@@ -134,7 +133,8 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
     return;
   }
   if (!CheckPath(space_, result->path).free) result->path = result->raw_path;
-  result->path = ShortenPath(result->path, space_, shortening);
+  result->path = ShortenPath(result->path, space_, shortening,
+                             result->keeps_clearance ? 1.0 : kClearanceKept);
   result->length = PathLength(result->path);
   result->clearance = PathClearance(space_, result->path);
 }

@@ -317,11 +317,10 @@ class PlanRun {
     options.clearance = request_.clearance
                             ? WantedClearance()
                             : kEnoughClearance * world_.diagonal();
-    if (request_.clearance && request_.keeps_clearance) {
-      options.kept_share = 1.0;
-    }
     options.seed = request_.seed;
-    answer_.path = ShortenPath(answer_.path, space, options);
+    const bool keeps = request_.clearance && request_.keeps_clearance;
+    answer_.path =
+        ShortenPath(answer_.path, space, options, keeps ? 1.0 : kClearanceKept);
     answer_.length = PathLength(answer_.path);
     answer_.evidence.check = CheckPath(space, answer_.path);
     answer_.is_free = answer_.evidence.check.free;

@@ -104,7 +104,7 @@ def _planning_row(job: Job, subject: dict[str, Any]) -> str:
         tuple(scene.start), tuple(scene.goal), planner=what["planner"],
         retraction=what["retraction"], clearance=what["clearance"],
         max_seconds=what["max_seconds"], seed=what["seed"], preset="",
-        model="", require=False))
+        model="", require=False).row)
 
 
 def _depth_row(job: Job, subject: dict[str, Any]) -> str:

@@ -234,7 +234,7 @@ TEST_F(CliAnswers, ContactSpacesThatAFieldCannotBeSplitForAreNamed) {
   ExpectRefused(
       "query --contact-space ../box.off --points ../p.csv --smoothing-length "
       "1e-6",
-      {"box.off: Phong field: splitting needs more than"});
+      {"box.off: Phong field: smoothing_length: expected at least"});
 }
 
 TEST_F(CliAnswers, SizesOfDifferentUnitsAreSuspected) {

@@ -167,9 +167,9 @@ TEST_F(CliPlan, SeeksAClearanceInUnitsOrAsAShareOfD) {
       EXPECT_NEAR(lengths["clearance"]["share"].get<double>() * d,
                   row["clearance"].get<double>(), 1e-12);
       if (planner != "contact-surface") continue;
-      // It is sought, not promised: corners are cut.
-      EXPECT_GT(row["clearance"].get<double>(), 0.5 * unit) << flag;
-      EXPECT_LT(row["clearance"].get<double>(), 1.01 * unit) << flag;
+      // There is room: it is kept, and no more of a detour is made for it.
+      EXPECT_GE(row["clearance"].get<double>(), unit) << flag;
+      EXPECT_LT(row["clearance"].get<double>(), 1.1 * unit) << flag;
     }
   };
   check("0.02unit", 0.02);
