@@ -129,7 +129,6 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   leg.goal = goal;
   leg.model = request.model;
   leg.clearance = request.Margin();
-  leg.keeps_clearance = false;  // the motion does
   leg.preset = request.preset;
   const int routes = ComparedRoutesOf(request);
   ContactSurfaceOptions by_preset;
@@ -163,7 +162,8 @@ std::vector<Path> FindPaths(const World& world, const OptimizeRequest& request,
   std::size_t most = 1;
   for (std::size_t i = 0; i < legs; ++i) {
     if (places[i] == places[i + 1]) continue;
-    PathAnswer leg = Plan(world, LegRequest(request, places[i], places[i + 1]));
+    PathAnswer leg =
+        PlanLifted(world, LegRequest(request, places[i], places[i + 1]));
     answer->seconds += leg.seconds;
     answer->evidence.model = leg.evidence.model;
     answer->evidence.refusal = leg.evidence.refusal;

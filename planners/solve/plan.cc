@@ -46,8 +46,11 @@ ContactSurfaceOptions SurfaceOptions(const PlanRequest& request) {
 // One request in one world.
 class PlanRun {
  public:
-  PlanRun(const World& world, const PlanRequest& request)
-      : world_(world), request_(request) {}
+  PlanRun(const World& world, const PlanRequest& request,
+          bool keeps_clearance = true)
+      : world_(world),
+        request_(request),
+        keeps_clearance_(request.clearance.has_value() && keeps_clearance) {}
 
   PathAnswer Run() {
     request_.Validate();
@@ -179,8 +182,7 @@ class PlanRun {
     RouteRequest routes;
     routes.routes = request_.routes;
     routes.clearance = WantedClearance();
-    routes.keeps_clearance =
-        request_.clearance.has_value() && request_.keeps_clearance;
+    routes.keeps_clearance = keeps_clearance_;
     return routes;
   }
 
@@ -318,9 +320,8 @@ class PlanRun {
                             ? WantedClearance()
                             : kEnoughClearance * world_.diagonal();
     options.seed = request_.seed;
-    const bool keeps = request_.clearance && request_.keeps_clearance;
-    answer_.path =
-        ShortenPath(answer_.path, space, options, keeps ? 1.0 : kClearanceKept);
+    answer_.path = ShortenPath(answer_.path, space, options,
+                               keeps_clearance_ ? 1.0 : kClearanceKept);
     answer_.length = PathLength(answer_.path);
     answer_.evidence.check = CheckPath(space, answer_.path);
     answer_.is_free = answer_.evidence.check.free;
@@ -330,6 +331,7 @@ class PlanRun {
 
   const World& world_;
   const PlanRequest& request_;
+  bool keeps_clearance_;
   PathAnswer answer_;
 };
 
@@ -353,6 +355,10 @@ void PlanRequest::Validate() const {
 
 PathAnswer Plan(const World& world, const PlanRequest& request) {
   return PlanRun(world, request).Run();
+}
+
+PathAnswer PlanLifted(const World& world, const PlanRequest& request) {
+  return PlanRun(world, request, false).Run();
 }
 
 std::string ClearanceBeyondReach(const World& world,

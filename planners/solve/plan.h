@@ -21,9 +21,6 @@ struct PlanRequest {
   // RetractionOptions).
   std::optional<Length> clearance{};
   bool requires_clearance = false;  // less is no answer
-  // Contact-surface keeps a clearance that is given wherever it finds a way
-  // to; false: routes are lifted by it, and shortening gives a part of it away.
-  bool keeps_clearance = true;
   // Of contact-surface.
   Preset preset = Preset::kBalanced;
   int routes = 0;  // ways that are compared; 0: the preset's
@@ -54,7 +51,13 @@ void ApplyBudget(double seconds, const Workspace& workspace,
 // that needs the whole contact surface; BuildRefusal if limits of the world do
 // not allow what is needed.  Thread-safe, except that samplers reseed OMPL's
 // own generator, which all threads share (OmplPlanningOptions).
+//
+// Contact-surface keeps a clearance that is given wherever it finds a way to.
 PathAnswer Plan(const World& world, const PlanRequest& request);
+
+// The same for who makes the clearance later: contact-surface's routes are
+// lifted by it, and shortening gives a part of it away.
+PathAnswer PlanLifted(const World& world, const PlanRequest& request);
 
 // One sentence if start or goal has less than the clearance asked for; else
 // empty.  Builds nothing.
