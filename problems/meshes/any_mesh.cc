@@ -84,6 +84,11 @@ OmplAppMesh ReadOmplAppMesh(const std::string& path,
                             const std::string& root) {
   if (IsImported(ExtensionOf(path))) {
     ImportedMesh imported = ReadByAssimp(path, root, MeshFrame::kAssimp);
+    if (warnings != nullptr) {
+      warnings->push_back(path +
+                          ": unit and up axis that the file names are applied, "
+                          "as OMPL.app has them; read in single precision");
+    }
     return {std::move(imported.mesh), imported.center};
   }
   OmplAppMesh read = {ReadAnyMesh(path, warnings, root), {0.0, 0.0, 0.0}};

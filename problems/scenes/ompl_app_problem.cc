@@ -8,10 +8,12 @@
 #include <optional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_range.h"
 #include "core/number_text.h"
+#include "core/solid/solid.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/files_beside.h"
 
@@ -89,6 +91,18 @@ class Problem {
   std::map<std::string, std::string> values_;
 };
 
+// The judge takes triangles as they are; what has no inside is told.
+void NoteOpenSurface(const TriangleMesh& mesh, const std::string& name,
+                     std::vector<std::string>* warnings) {
+  try {
+    MakeSolid(mesh, name);
+  } catch (const InputError& error) {
+    warnings->push_back(std::string(error.what()) +
+                        "; its triangles are judged as they are, and have an "
+                        "inside only if they are closed");
+  }
+}
+
 // A mesh file beside the problem's.
 OmplAppMesh MeshOf(const Problem& problem, const std::string& key,
                    const std::string& root, TurningScene* scene) {
@@ -104,7 +118,8 @@ OmplAppMesh MeshOf(const Problem& problem, const std::string& key,
   }
   try {
     OmplAppMesh read = ReadOmplAppMesh(path.string(), &scene->warnings, root);
-    RequireInRange(read.mesh, problem.file() + ": " + key);
+    RequireInRange(read.mesh, path.string());
+    NoteOpenSurface(read.mesh, path.string(), &scene->warnings);
     return read;
   } catch (const InputError& error) {
     throw InputError(problem.file() + ": " + key + ": " + error.what());

@@ -99,6 +99,19 @@ TEST_F(OmplAppProblem, TakesColladaAsAssimpTurnsAndScalesIt) {
   EXPECT_LE((robot.min + robot.max).norm(), 1e-6);
 }
 
+TEST_F(OmplAppProblem, TellsWhichMeshHasNoInside) {
+  EXPECT_TRUE(Read(kProblem).warnings.empty());
+  TriangleMesh open = Block();
+  open.triangles.pop_back();
+  WriteMesh(open, At("world.off"));
+  const std::vector<std::string> warnings = Read(kProblem).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].rfind(At("world.off") + ": ", 0), 0u) << warnings[0];
+  EXPECT_NE(warnings[0].find("its triangles are judged as they are"),
+            std::string::npos)
+      << warnings[0];
+}
+
 TEST_F(OmplAppProblem, IsASceneOfARobotThatTurns) {
   Put("block.cfg", kProblem);
   const SceneSource source(At("block.cfg"));
