@@ -107,7 +107,7 @@ void ReportCavities(int cavities, bool outer_only, ContactSpaceReport* report) {
   report->cavities = cavities;
   if (!outer_only) return;
   ApproximationStep step;
-  step.kind = "outer-shell";
+  step.kind = ApproximationKind::kOuterShell;
   step.dropped_cavities = cavities;
   AddStep(step, &report->approximation);
 }

@@ -70,8 +70,8 @@ void Fields(Stream* io, ApproximationStep& step) {
 
 template <typename Stream>
 void Fields(Stream* io, Approximation& approximation) {
-  auto& [kind, bound, is_conservative, steps] = approximation;
-  (*io)(kind, bound, is_conservative, steps);
+  auto& [bound, is_conservative, steps] = approximation;
+  (*io)(bound, is_conservative, steps);
 }
 
 template <typename Stream>
@@ -132,6 +132,12 @@ bool IsValid(const ContactSpace::Parts& space) {
   }
   for (const ContactKind kind : space.kind) {
     if (kind < ContactKind::kObstacleFacet || kind > ContactKind::kNone) {
+      return false;
+    }
+  }
+  for (const ApproximationStep& step : space.report.approximation.steps) {
+    if (step.kind < ApproximationKind::kAlphaWrap ||
+        step.kind > ApproximationKind::kOuterShell) {
       return false;
     }
   }

@@ -75,9 +75,6 @@ void Add(const ContactSpaceReport& one, ContactSpaceReport* sum) {
       std::max(sum->approximation.bound, one.approximation.bound);
   sum->approximation.is_conservative =
       sum->approximation.is_conservative && one.approximation.is_conservative;
-  if (!one.approximation.steps.empty()) {
-    sum->approximation.kind = one.approximation.kind;
-  }
   sum->approximation.steps.insert(sum->approximation.steps.end(),
                                   one.approximation.steps.begin(),
                                   one.approximation.steps.end());

@@ -18,8 +18,8 @@
 #include "planners/world/budget.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
+#include "problems/output/row_parts.h"
 #include "problems/output/text.h"
-#include "problems/studies/row_parts.h"
 
 namespace phongpd::cli {
 

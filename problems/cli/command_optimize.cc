@@ -21,11 +21,11 @@
 #include "problems/cli/serve_view.h"
 #include "problems/cli/timed_answer.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/answer_row.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/scenes/kept_world.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/answer_row.h"
 #include "viewer/run_view.h"
 #include "viewer/scene_view.h"
 

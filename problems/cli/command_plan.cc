@@ -14,10 +14,10 @@
 #include "problems/cli/run_path.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/answer_row.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/answer_row.h"
 #include "viewer/run_view.h"
 #include "viewer/scene_view.h"
 

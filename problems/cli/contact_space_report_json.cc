@@ -27,7 +27,7 @@ Json ToJson(const Approximation& approximation) {
   Json steps = Json::array();
   for (const ApproximationStep& step : approximation.steps) {
     steps.push_back({{"operand", step.operand},
-                     {"kind", step.kind},
+                     {"kind", ApproximationName(step.kind)},
                      {"bound", step.bound},
                      {"lower_bound", step.lower_bound},
                      {"bound_of", step.is_surface_bound ? "surface" : "solid"},
@@ -36,7 +36,7 @@ Json ToJson(const Approximation& approximation) {
                      {"triangles_after", step.triangles_after},
                      {"dropped_cavities", step.dropped_cavities}});
   }
-  return {{"kind", approximation.kind},
+  return {{"kind", KindsOf(approximation)},
           {"bound", approximation.bound},
           {"conservative", approximation.is_conservative},
           {"steps", steps}};

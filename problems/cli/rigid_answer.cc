@@ -6,8 +6,8 @@
 
 #include "problems/cli/command.h"
 #include "problems/cli/run_path.h"
+#include "problems/output/rigid_row.h"
 #include "problems/output/text.h"
-#include "problems/studies/rigid_row.h"
 #include "viewer/rigid_view.h"
 
 namespace phongpd::cli {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "problems/studies/answer_row.h"
-#include "problems/studies/rigid_row.h"
+#include "problems/output/answer_row.h"
+#include "problems/output/rigid_row.h"
 #include "viewer/rigid_view.h"
 
 namespace phongpd::cli {

@@ -12,8 +12,8 @@
 #include "problems/cli/obstacle_depths.h"
 #include "problems/cli/run_path.h"
 #include "problems/cli/solve_question.h"
+#include "problems/output/answer_row.h"
 #include "problems/scenes/scene_requests.h"
-#include "problems/studies/answer_row.h"
 #include "viewer/motion_view.h"
 #include "viewer/view_entries.h"
 

@@ -8,7 +8,7 @@
 #include "problems/cli/run_path.h"
 #include "problems/cli/scene_solver.h"
 #include "problems/cli/solve_question.h"
-#include "problems/studies/rigid_row.h"
+#include "problems/output/rigid_row.h"
 #include "viewer/rigid_view.h"
 #include "viewer/view_entries.h"
 

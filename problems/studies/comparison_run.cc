@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "problems/output/answer_row.h"
 #include "problems/scenes/scene_requests.h"
-#include "problems/studies/answer_row.h"
 
 namespace phongpd {
 

@@ -16,7 +16,7 @@
 #include "core/mesh/mesh_error.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/output/json_text.h"
-#include "problems/studies/row_parts.h"
+#include "problems/output/row_parts.h"
 
 namespace phongpd {
 namespace {

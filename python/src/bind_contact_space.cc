@@ -70,7 +70,7 @@ nb::dict Report(const ContactSpace& space) {
   out["method"] = OneLine(report.method);
   out["from_cache"] = report.from_cache;
   out["grid_step"] = report.grid_step;
-  out["approximation"] = OneLine(report.approximation.kind);
+  out["approximation"] = OneLine(KindsOf(report.approximation));
   out["approximation_bound"] = report.approximation.bound;
   out["seconds"] = seconds;
   out["peak_mib"] = report.peak_mib;

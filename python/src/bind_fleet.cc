@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "planners/solve/fleet.h"
+#include "problems/output/fleet_row.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/fleet_row.h"
 #include "python/src/bindings.h"
 #include "python/src/interruptible.h"
 #include "python/src/json_objects.h"

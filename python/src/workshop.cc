@@ -5,8 +5,8 @@
 
 #include "core/mesh/mesh_error.h"
 #include "planners/world/bare_length.h"
+#include "problems/output/answer_row.h"
 #include "problems/scenes/scene_requests.h"
-#include "problems/studies/answer_row.h"
 #include "python/src/interruptible.h"
 
 namespace phongpd::python {

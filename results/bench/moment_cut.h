@@ -2,7 +2,7 @@
 #pragma once
 
 #include "problems/studies/motion.h"
-#include "problems/studies/paper_benchmarks.h"
+#include "results/bench/paper_benchmarks.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {

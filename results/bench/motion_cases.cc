@@ -6,7 +6,7 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/paper_benchmarks.h"
+#include "results/bench/paper_benchmarks.h"
 
 namespace phongpd::bench {
 

@@ -10,7 +10,7 @@
 #include "core/contact/contact_space.h"
 #include "core/projection/phong_field.h"
 #include "problems/studies/motion.h"
-#include "problems/studies/paper_benchmarks.h"
+#include "results/bench/paper_benchmarks.h"
 
 // Everything results/paper says about one benchmark, as numbers.
 namespace phongpd::bench {

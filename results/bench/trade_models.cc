@@ -12,7 +12,7 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/paper_benchmarks.h"
+#include "results/bench/paper_benchmarks.h"
 #include "results/bench/report.h"
 #include "results/bench/trade_measure.h"
 

@@ -27,10 +27,11 @@ std::string Rounded(double value) {
   return stream.str();
 }
 
-const char* Described(const std::string& kind) {
-  if (kind == "robot-hull") return "replaced by its convex hull";
-  if (kind == "alpha-wrap") return "wrapped";
-  return "decimated";
+const char* Described(ApproximationKind kind) {
+  if (kind == ApproximationKind::kRobotHull) {
+    return "replaced by its convex hull";
+  }
+  return kind == ApproximationKind::kAlphaWrap ? "wrapped" : "decimated";
 }
 
 std::string Sentence(const ApproximationStep& step) {
@@ -60,7 +61,7 @@ void WarnIfFarAway(const Solid& solid, ContactSpaceReport* report) {
 }
 
 // Replaces *solid and reports it.
-void Apply(const std::string& kind, const ApproximateMesh& approximate,
+void Apply(ApproximationKind kind, const ApproximateMesh& approximate,
            Solid* solid, ContactSpaceReport* report) {
   const std::string& name = solid->name();
   ApproximationStep step;
@@ -134,10 +135,11 @@ void RequireWrapAlpha(const ContactSpaceOptions& options) {
 void Replace(bool is_robot, const ContactSpaceOptions& options, Solid* solid,
              ContactSpaceReport* report) {
   if (is_robot && options.robot_hull) {
-    Apply("robot-hull", ConvexHull(*solid), solid, report);
+    Apply(ApproximationKind::kRobotHull, ConvexHull(*solid), solid, report);
   }
   if (options.target_faces > 0) {
-    Apply("decimation", Decimate(*solid, options.target_faces), solid, report);
+    Apply(ApproximationKind::kDecimation,
+          Decimate(*solid, options.target_faces), solid, report);
   }
   WarnIfFarAway(*solid, report);
 }
@@ -155,15 +157,6 @@ void AddStep(const ApproximationStep& step, Approximation* approximation) {
   approximation->steps.push_back(step);
   approximation->bound += step.bound;
   approximation->is_conservative &= step.is_conservative;
-  std::string joined;
-  for (const char* kind :
-       {"alpha-wrap", "robot-hull", "decimation", "outer-shell"}) {
-    const bool is_used = std::any_of(
-        approximation->steps.begin(), approximation->steps.end(),
-        [kind](const ApproximationStep& s) { return s.kind == kind; });
-    if (is_used) joined += (joined.empty() ? "" : "+") + std::string(kind);
-  }
-  approximation->kind = joined;
 }
 
 Solid PrepareOperand(const Solid& solid, OperandRole role,
@@ -175,8 +168,8 @@ Solid PrepareOperand(const Solid& solid, OperandRole role,
   RequireWrapAlpha(options);
   Solid prepared = solid;
   if (options.wrap_alpha > 0.0) {
-    Apply("alpha-wrap", WrapSolid(solid, options.wrap_alpha), &prepared,
-          report);
+    Apply(ApproximationKind::kAlphaWrap, WrapSolid(solid, options.wrap_alpha),
+          &prepared, report);
   }
   Replace(is_robot, options, &prepared, report);
   return prepared;
@@ -207,7 +200,7 @@ Solid PrepareOperand(const TriangleMesh& mesh, OperandRole role,
   }
   ApproximationStep step;
   step.operand = name;
-  step.kind = "alpha-wrap";
+  step.kind = ApproximationKind::kAlphaWrap;
   step.bound = repaired.wrap_bound;
   step.is_surface_bound = true;
   step.triangles_before = mesh.triangles.size();

@@ -12,6 +12,7 @@
 #include "core/bounds/solid_distance.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
+#include "core/contact/joined_contact_spaces.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
 #include "tests/support/oracle_of.h"
@@ -66,7 +67,7 @@ void ExpectWithinBound(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 TEST(Knobs, NoneIsExact) {
   const ContactSpace c = BuildContactSpace(Cube(1), MakeL(3, 1, 1));
-  EXPECT_EQ(c.report().approximation.kind, "none");
+  EXPECT_EQ(KindsOf(c.report().approximation), "none");
   EXPECT_EQ(c.report().approximation.bound, 0.0);
   EXPECT_TRUE(c.report().approximation.is_conservative);
   EXPECT_TRUE(c.report().warnings.empty());
@@ -78,7 +79,7 @@ TEST(Knobs, RobotHullContainsTheExactContactSpace) {
   ContactSpaceOptions options;
   options.robot_hull = true;
   const ContactSpace c = BuildContactSpace(robot, torus, options);
-  EXPECT_EQ(c.report().approximation.kind, "robot-hull");
+  EXPECT_EQ(KindsOf(c.report().approximation), "robot-hull");
   EXPECT_TRUE(c.report().approximation.is_conservative);
   ExpectWithinBound(robot, torus, c, 1500);
 }
@@ -101,7 +102,7 @@ TEST(Knobs, DecimationStaysWithinItsBound) {
   options.robot_name = "ball";
   const ContactSpace c = BuildContactSpace(robot, knot, options);
   const Approximation& a = c.report().approximation;
-  EXPECT_EQ(a.kind, "decimation");
+  EXPECT_EQ(KindsOf(a), "decimation");
   EXPECT_FALSE(a.is_conservative);
   ASSERT_EQ(a.steps.size(), 2U);
   EXPECT_EQ(a.bound, a.steps[0].bound + a.steps[1].bound);
@@ -115,10 +116,23 @@ TEST(Knobs, WrapContainsTheExactContactSpace) {
   ContactSpaceOptions options;
   options.wrap_alpha = 0.1;
   const ContactSpace c = BuildContactSpace(robot, u, options);
-  EXPECT_EQ(c.report().approximation.kind, "alpha-wrap");
+  EXPECT_EQ(KindsOf(c.report().approximation), "alpha-wrap");
   EXPECT_EQ(c.report().approximation.steps.size(), 2U);
   EXPECT_TRUE(c.report().approximation.is_conservative);
   ExpectWithinBound(robot, u, c, 1500);
+}
+
+TEST(Knobs, OfSeveralSpacesAllAreNamed) {
+  ContactSpaceOptions hull, wrapped;
+  hull.robot_hull = true;
+  wrapped.wrap_alpha = 0.1;
+  TriangleMesh far = MakeU(3, 0.5, 1);
+  for (Vector3d& v : far.vertices) v.x() += 20.0;
+  const ContactSpace joined = JoinedContactSpaces(
+      {BuildContactSpace(MakeStar(0.3, 0.6), MakeU(3, 0.5, 1), hull),
+       BuildContactSpace(MakeStar(0.3, 0.6), far, wrapped),
+       BuildContactSpace(Cube(1), Cube(1))});
+  EXPECT_EQ(KindsOf(joined.report().approximation), "alpha-wrap+robot-hull");
 }
 
 TEST(Knobs, SeveralAreNamedTogetherAndTheirBoundsAdded) {
@@ -131,7 +145,7 @@ TEST(Knobs, SeveralAreNamedTogetherAndTheirBoundsAdded) {
       BuildContactSpace(MakeStar(0.3, 0.6), MakeVessel(4, 3, 0), options);
   ExpectSound(c.report());
   const Approximation& a = c.report().approximation;
-  EXPECT_EQ(a.kind, "alpha-wrap+robot-hull+decimation+outer-shell");
+  EXPECT_EQ(KindsOf(a), "alpha-wrap+robot-hull+decimation+outer-shell");
   double sum = 0.0;
   for (const ApproximationStep& step : a.steps) sum += step.bound;
   EXPECT_EQ(a.bound, sum);
@@ -144,7 +158,7 @@ TEST(Knobs, OuterShellCountsWhatItDrops) {
   const ContactSpace c =
       BuildContactSpace(Cube(1), MakeVessel(4, 3, 0), options);
   const Approximation& a = c.report().approximation;
-  EXPECT_EQ(a.kind, "outer-shell");
+  EXPECT_EQ(KindsOf(a), "outer-shell");
   EXPECT_EQ(a.bound, 0.0);
   ASSERT_EQ(a.steps.size(), 1U);
   EXPECT_EQ(a.steps[0].dropped_cavities, 1);
@@ -175,7 +189,7 @@ TEST(BadOperands, AreRefusedByNameOrRepaired) {
       options.wrap_alpha = 0.2;
       const ContactSpace c = build();
       ExpectSound(c.report());
-      EXPECT_EQ(c.report().approximation.kind, "alpha-wrap");
+      EXPECT_EQ(KindsOf(c.report().approximation), "alpha-wrap");
       const auto& steps = c.report().approximation.steps;
       ASSERT_EQ(steps.size(), 2U);
       EXPECT_EQ(steps[0].is_surface_bound, is_robot);
@@ -193,7 +207,7 @@ TEST(BadOperands, SafeRepairGivesTheExactContactSpace) {
   options.repair = Repair::kSafe;
   const ContactSpace c = BuildContactSpace(Cube(1), doubled, options);
   EXPECT_EQ(c.report().volume, 8.0);
-  EXPECT_EQ(c.report().approximation.kind, "none");
+  EXPECT_EQ(KindsOf(c.report().approximation), "none");
   EXPECT_EQ(c.report().obstacle_repair.duplicate_faces, 12U);
   EXPECT_TRUE(Says(c.report(), "obstacle: 12 duplicate faces removed"));
 }

@@ -10,9 +10,9 @@
 #include "core/solid/solid.h"
 #include "planners/solve/optimize.h"
 #include "planners/solve/plan.h"
+#include "problems/output/answer_row.h"
 #include "problems/scenes/kept_world.h"
 #include "problems/scenes/scene_requests.h"
-#include "problems/studies/answer_row.h"
 
 namespace phongpd {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "problems/output/fleet_row.h"
 #include "problems/scenes/json_schema.h"
-#include "problems/studies/fleet_row.h"
 #include "tests/support/expect_refused.h"
 
 namespace phongpd {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The engine on the paper's three benchmarks, judged by the original meshes.
-#include "problems/studies/paper_benchmarks.h"
+#include "results/bench/paper_benchmarks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/answer_row.h"
+#include "problems/output/answer_row.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "planners/retraction/retraction_names.h"
 #include "planners/world/room.h"
-#include "problems/studies/row_parts.h"
+#include "problems/output/row_parts.h"
 
 namespace phongpd {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/fleet_row.h"
+#include "problems/output/fleet_row.h"
 
 #include <nlohmann/json.hpp>
 
+#include "problems/output/answer_row.h"
+#include "problems/output/row_parts.h"
 #include "problems/scenes/scene_requests.h"
-#include "problems/studies/answer_row.h"
-#include "problems/studies/row_parts.h"
 
 namespace phongpd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/rigid_row.h"
+#include "problems/output/rigid_row.h"
 
 #include <nlohmann/json.hpp>
 

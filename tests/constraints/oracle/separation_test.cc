@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,8 +16,9 @@
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "core/solid/solid.h"
+#include "problems/scenes/scene.h"
+#include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/paper_benchmarks.h"
 #include "tests/support/campaign.h"
 #include "tests/support/metrics.h"
 #include "tests/support/random_pairs.h"
@@ -101,9 +103,10 @@ std::vector<Solids> AllSolids(int* brief) {
                      [=] { return pair(kind, seed, false); }});
     }
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    all.push_back({"paper", [=] { return PaperBenchmarks()[i].robot; },
-                   [=] { return PaperBenchmarks()[i].obstacle; }});
+  for (const char* name : {"ball_cone", "cone_axes", "ball_wrench"}) {
+    const Workspace of = ParseScene(MakeScene(name, {}), name).workspace;
+    all.push_back(
+        {name, [=] { return of.robot; }, [=] { return JoinedObstacle(of); }});
   }
   return all;
 }

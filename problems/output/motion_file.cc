@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/motion_file.h"
+#include "problems/output/motion_file.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Motions as machines read them, read back.  Truth: the curve itself, and the
 // exact judge of the lines as they are written.
-#include "problems/studies/motion_file.h"
+#include "problems/output/motion_file.h"
 
 #include <gtest/gtest.h>
 
