@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
 # extremes|peers|trajectories|fleets|rigid|rigid-optimize|wrench|study|
-# study-models|study-solvers|cluster|python|trade|slice|all]:
+# study-models|study-solvers|study-times|cluster|python|trade|slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -15,13 +15,13 @@ suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
     extremes | peers | trajectories | fleets | rigid | rigid-optimize | \
-    wrench | study | study-models | study-solvers | cluster | python | \
-    trade | continuity | retraction | widths | slice | all) ;;
+    wrench | study | study-models | study-solvers | study-times | cluster | \
+    python | trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
       "rigid, rigid-optimize, wrench, study, study-models, study-solvers," \
-      "cluster, python, trade," \
+      "study-times, cluster, python, trade," \
       "continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
@@ -225,6 +225,15 @@ if [[ $suite == extremes || $suite == all ]]; then
   python3 -B results/bench/extremes_report.py --logs "$logs" \
     --output results/extremes --program build/phongpd \
     --how "scripts/bench.sh extremes"
+fi
+if [[ $suite == study-times || $suite == all ]]; then
+  # Contact space, field and solves of 1, 10 and 100 problems; a quarter of an hour.
+  scripts/python.sh
+  scripts/build.sh phongpd_python
+  . scripts/study_scenes.sh
+  PYTHONPATH=$PWD/build/python build/venv/bin/python -B \
+    results/bench/study_times.py results/study --scenes "${study_scenes[@]}" \
+    --seed "$study_seed" --commit "$(git rev-parse --short HEAD)"
 fi
 if [[ $suite == cluster || $suite == all ]]; then
   scripts/python.sh

@@ -161,6 +161,9 @@ if(PHONGPD_HAS_PYTHON)
     add_test(NAME StudySolvers
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/study_solvers_test.py)
+    add_test(NAME StudyTimes
+             COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
+                     ${CMAKE_CURRENT_SOURCE_DIR}/results/study_times_test.py)
     add_test(NAME TrajectoriesBenchmark
              COMMAND ${PHONGPD_PYTHON} -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/trajectories_test.py)
@@ -168,7 +171,7 @@ if(PHONGPD_HAS_PYTHON)
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/statistics_test.py)
     set_tests_properties(
-      StudyModels StudySolvers TrajectoriesBenchmark
+      StudyModels StudySolvers StudyTimes TrajectoriesBenchmark
       PROPERTIES
         TIMEOUT 300
         ENVIRONMENT
