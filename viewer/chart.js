@@ -79,11 +79,12 @@ function drawChart(viewer) {
 // What of PD is drawn: its length, how far it went since the frame before, or
 // by how much it turned.  Where a metric has no PD, nothing has turned.
 const kChartKinds = {
-  size: {text: '|PD|', of: pd => pd.map(p => Math.hypot(...p))},
-  change: {text: 'change of PD a frame', of: pd => fromFrame(
-      pd, (a, b) => Math.hypot(...b.map((x, k) => x - a[k])))},
-  angle: {text: 'turn of PD a frame', unit: '°',
+  angle: {text: 'turn of the way out, frame to frame', unit: '°',
           of: pd => fromFrame(pd, angleBetween)},
+  change: {text: 'change of the way out, frame to frame', of: pd => fromFrame(
+      pd, (a, b) => Math.hypot(...b.map((x, k) => x - a[k])))},
+  size: {text: 'depth: length of the way out',
+         of: pd => pd.map(p => Math.hypot(...p))},
 };
 
 // Of each frame and the one before it; 0 of the first.
@@ -110,8 +111,9 @@ function drawDepthChart(viewer, canvas) {
   const y = value => height - 8 - value / most * (height - 18);
   const colors = values.map((_, i) => stage.arrowColor(state.theme, i));
   const frame = new ChartFrame(drawSeries(canvas, colors, values, x, y), canvas);
-  frame.write(kind.text + ', ' + (kind.unit || data.unit), kChartLeft + 4, 14);
-  frame.write(kind.unit ? viewer.digits(most) : viewer.number(most),
+  byId('chart-most').textContent = 'at most ' +
+      (kind.unit ? viewer.digits(most) + kind.unit : viewer.text(most));
+  frame.write(kind.unit ? viewer.digits(most) + kind.unit : viewer.number(most),
               kChartLeft - 8, 14, undefined, 'right');
   frame.write('0', kChartLeft - 8, height - 5, undefined, 'right');
   frame.line('--soft', kChartLeft, y(0), frame.width - kChartRight, y(0));
@@ -128,7 +130,9 @@ function drawPaceChart(viewer, canvas, pace) {
   const series = kPaceNames.map(name => pace[name]);
   const last = pace.velocity.length - 1;
   const x = f => acrossChart(canvas, f / last);
-  const y = value => height - 8 - value * (height - 28);
+  // Where both do not fit into one line, the least room is below the names.
+  const isTight = canvas.clientWidth < 420;
+  const y = value => height - 8 - value * (height - (isTight ? 40 : 28));
   const frame = new ChartFrame(
       drawSeries(canvas, series.map((_, i) => wayColor(state.theme, i)),
                  series, x, y), canvas);
@@ -144,7 +148,7 @@ function drawPaceChart(viewer, canvas, pace) {
   const least = leastRoom(pace);
   frame.line('--soft', x(least), y(1), x(least), y(0), [2, 2]);
   frame.write('least room ' + viewer.text(pace.clearance[least]),
-              frame.width - kChartRight, 11, undefined, 'right');
+              frame.width - kChartRight, isTight ? 23 : 11, undefined, 'right');
   const now = x(state.time * last);
   frame.line('--text', now, 4, now, height - 4);
 }

@@ -44,6 +44,13 @@ class Crew {
                                                this.stage.solid('mover'))});
   }
 
+  // Where the robot that follows a way is; null: it is none of these.
+  placeOf(way) {
+    const robot = way === undefined ? null
+        : this.robots.find(r => r.way === this.stage.ways[way]);
+    return robot && robot.group.visible ? robot.group.position : null;
+  }
+
   // Of a mover: where it is while a motion that came later is played.
   retime(index, points) {
     const {way} = this.movers[index];

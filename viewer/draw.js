@@ -14,8 +14,8 @@ class DrawnViewer extends Viewer {
     // What the page lays over the canvas.
     const right = hasPanel && !still ? 288 : 0;
     const top = isSmall ? (motion ? 86 : 100) : count > 1 ? 120 : 60;
-    const bottom = still ? 50 : byId('chart') ? (isSmall ? 175 : 150)
-        : isSmall ? 120 : 80;
+    const bottom = still ? 50
+        : Math.max(80, height - this.floor + (isSmall ? 52 : 16));
     const panes = [];
     for (let i = 0; i < count; ++i) {
       const pane = isColumn
@@ -60,6 +60,7 @@ class DrawnViewer extends Viewer {
     stage.crew.show(state.show, state.time);
     if (state.probe.on) this.probe.pose();
     if (this.task) this.task.pose();
+    if (!state.probe.on) this.tell(place);  // which may need more lines
     const panes = this.panes(width, height);
     renderer.setScissorTest(false);
     // Opaque: as a part of another page what is behind a canvas may be black.
@@ -84,7 +85,6 @@ class DrawnViewer extends Viewer {
       this.label(pane, i, panes.length);
     });
     this.scaleBar(panes[0].inner.height);
-    if (!state.probe.on) this.tell(place);
     document.documentElement.dataset.ready = '1';
   }
 
@@ -131,9 +131,10 @@ class DrawnViewer extends Viewer {
     const boxes = this.covers();
     const taken = [];
     for (const {text, point, way, owner} of stage.labels) {
-      const p = point.clone().project(camera);
+      // A robot of several has its name where it is.
+      const p = (stage.crew.placeOf(way) || point).clone().project(camera);
       if (p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) continue;
-      const width = 8 * text.length + 10, height = 18;
+      const width = 8 * text.length + 10, height = 19;
       let x = Math.min(pane.x + (p.x + 1) / 2 * pane.width,
                        innerWidth - width - 12);
       let y = pane.y + (1 - p.y) / 2 * pane.height;
@@ -164,12 +165,22 @@ class DrawnViewer extends Viewer {
         .filter(box => box.width > 0);
   }
 
+  // Where begins what is laid over the picture's lower end.
+  get floor() {
+    return ['player', 'reading'].map(id => byId(id).getBoundingClientRect())
+        .reduce((top, box) => box.height > 0 ? Math.min(top, box.top) : top,
+                innerHeight);
+  }
+
   scaleBar(height) {
     const perPixel = 2 * this.orbit.distance * Math.tan(kFieldOfView / 2) /
         height * this.data.scale;
     const wanted = perPixel * Math.min(140, innerWidth / 4);
     const ten = 10 ** Math.floor(Math.log10(wanted));
     const nice = [5, 2, 1].find(k => k * ten <= wanted) * ten;
+    // On a phone above what is there, however high that is.
+    byId('scalebar').style.bottom = isNarrow() && this.floor < innerHeight
+        ? innerHeight - this.floor + 10 + 'px' : '';
     byId('scalebar').querySelector('i').style.width = nice / perPixel + 'px';
     byId('scalebar').querySelector('b').textContent = this.text(nice);
   }

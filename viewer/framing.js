@@ -1,23 +1,26 @@
 // What the first view holds, and what the cutting plane goes through.
 
 class FramedStage extends Stage {
-  // Is a good part of the shown way behind obstacles, seen from the camera?
+  // Is a good part of the shown way, or of start and goal where there is none,
+  // behind obstacles, seen from the camera?
   isHidden(camera) {
     const solids = this.solids.filter(s => s.entry.role === 'obstacle');
     const way = this.ways.find(w => w.points.length > 0);
     const triangles = solids.reduce((n, s) => n + s.entry.shown, 0);
-    if (!way || solids.length === 0 || triangles > 60000) return false;
+    if (solids.length === 0 || triangles > 60000) return false;
     const ray = new THREE.Raycaster();
-    const count = 12;
+    // Of a scene without a way its ends.
+    const points = way ? Array.from({length: 12}, (_, i) =>
+      this.placeOn(way, i / 11).point)
+        : Object.values(this.ends).map(([mark]) => mark.position);
     let hidden = 0;
-    for (let i = 0; i < count; ++i) {
-      const point = this.placeOn(way, i / (count - 1)).point;
+    for (const point of points) {
       const direction = point.clone().sub(camera.position);
       ray.far = direction.length() * 0.999;
       ray.set(camera.position, direction.normalize());
       if (ray.intersectObjects(solids.map(s => s.faces[0])).length) ++hidden;
     }
-    return hidden > 0.35 * count;
+    return hidden > 0.35 * points.length;
   }
 
   // Around everything but a robot on its way.
@@ -53,6 +56,17 @@ class FramedStage extends Stage {
       box.expandByScalar(Math.min(size, 0.1));
     }
     return this.box_ = box;
+  }
+
+  // Are the bounds of the position in the first view?  Others are lines that
+  // cross it from nowhere to nowhere.
+  get areBoundsNear() {
+    const {bounds} = this.data;
+    if (!bounds) return true;
+    const size = new THREE.Vector3();
+    const near = this.box.clone().expandByScalar(
+        0.12 * this.box.getSize(size).length());
+    return [bounds.min, bounds.max].every(p => near.containsPoint(this.at(p)));
   }
 
   // What the first view must hold: all, or of a motion where the robot is

@@ -12,8 +12,8 @@ class Panel {
     byId('facts').textContent = this.facts();
     this.makeTools();
     byId('panel').append(
-        this.legend(), viewer.task ? viewer.task.section(this) : '',
-        this.waysSection = make('div', {}, this.ways()),
+        this.waysSection = make('div', {}, this.ways()), this.legend(),
+        viewer.task ? viewer.task.section(this) : '',
         viewer.probe ? viewer.probe.section(this) : '', this.display(),
         this.notes());
     document.body.classList.toggle('wayless', stage.ways.length === 0);
@@ -32,8 +32,11 @@ class Panel {
     if (triangles) facts.push(count(triangles, 'triangle'));
     // Robots that have none yet stand where they begin.
     const paths = stage.ways.filter(
-        way => way.kind === 'path' && (!way.body || way.points.length > 1));
+        way => way.kind === 'path' && way.points.length > (way.body ? 1 : 0));
     if (paths.length) facts.push(count(paths.length, 'path'));
+    else if (data.paths.length && !data.paths[0].robot) {
+      facts.push(data.paths[0].name.split(' · ').pop());
+    }
     if (data.motion) facts.push(count(data.motion.positions.length, 'frame'));
     if (data.answers.length === 1) {
       facts.push(this.viewer.answerText(data.answers[0]));
@@ -250,7 +253,6 @@ class Panel {
     const hasPace = data.paths.some(path => path.pace);
     const hasTraces = data.motion && data.motion.traces.length;
     if (byId('chart') || !byId('play') || !(hasPace || hasTraces)) return;
-    document.body.classList.add('charted');
     byId('player').prepend(make('canvas', {
       id: 'chart', 'aria-label': hasPace
           ? 'Velocity, acceleration and jerk over time, shares of the limits'
@@ -260,11 +262,13 @@ class Panel {
     }));
     if (!hasTraces) return;
     byId('player').prepend(make(
-        'select', {id: 'chart-kind', 'aria-label': 'What the chart draws',
-                   onchange: e => viewer.set(
-                       () => { state.chart = e.target.value; })},
-        ...Object.entries(kChartKinds).map(
-            ([value, kind]) => make('option', {value}, kind.text))));
+        'div', {class: 'bar kind'},
+        make('select', {id: 'chart-kind', 'aria-label': 'What the chart draws',
+                        onchange: e => viewer.set(
+                            () => { state.chart = e.target.value; })},
+             ...Object.entries(kChartKinds).map(
+                 ([value, kind]) => make('option', {value}, kind.text))),
+        make('output', {id: 'chart-most'})));
   }
 
   // After the ways have changed.

@@ -216,12 +216,18 @@ class Stage extends Solids {
       if (way.points.length === 0) return;
       const share = paths.length === 1
           ? 0.3 : 0.2 + 0.5 * i / (paths.length - 1);
-      // What sets paths apart: "PhongPD, ℓ = 0.2" of all that the legend says.
-      const short = way.name.split(' · ')[0];
-      const isOne = paths.filter(w => w.name.startsWith(short)).length === 1;
-      this.labels.push({text: isOne ? short : way.name, way: i,
+      this.labels.push({text: this.shortName(way, paths), way: i,
                         point: this.placeOn(way, share).point});
     });
+  }
+
+  // What sets it apart from others: "PhongPD, ℓ = 0.2" of all that the legend
+  // says, and "straight start" where another has that, too, and is without.
+  shortName(way, paths) {
+    const parts = name => name.split(' · '), [first, ...rest] = parts(way.name);
+    const alike = paths.map(w => parts(w.name)).filter(p => p[0] === first);
+    return [first, ...rest.filter(part => !alike.every(p => p.includes(part)))]
+        .join(' · ');
   }
 
   // Start or goal, to a point in the user's unit.

@@ -82,10 +82,15 @@ class TaskPanel {
         make('p', {id: 'task-says', role: 'status'}, ''),
         make('p', {class: 'soft'}, 'Drag the marks of start and goal, with ' +
              'Ctrl up and down, or type where they are.' + (this.rings
-             ? ' Rings turn the robot about x, y and z; the fields have the ' +
-               'axis times the angle in degrees.' : '')));
+             ? ' Of the end that you took last, rings turn the robot about ' +
+               'x, y and z; the fields have the axis times the angle in ' +
+               'degrees.' : '')));
     section.id = 'task';
     this.choose(this.what);
+    if (this.task.served) return section;
+    // Little can be asked of a page alone: it is there for who looks for it.
+    const [title, ...rest] = section.childNodes;
+    section.append(make('details', {}, make('summary', {}, title), ...rest));
     return section;
   }
 
@@ -127,7 +132,7 @@ class TaskPanel {
     this.by.replaceChildren(...(option ? [make(
         'label', {class: 'row wide'}, make('span', {}, 'by ' + option),
         make('select', {id: 'task-by', class: 'map'},
-             make('option', {value: ''}, 'as the scene says'),
+             make('option', {value: ''}, 'scene\'s own'),
              ...by.map(value => make('option', {value}, value))))] : []));
   }
 

@@ -41,8 +41,8 @@ class TurnRings {
       ring.renderOrder = 25;
       this.group.add(ring);
       this.names[name] = {text: name, point: new THREE.Vector3()};
-      stage.labels.push(this.names[name]);
     }
+    this.group.visible = false;
     stage.groups.marks.add(this.group);
     viewer.orbit.grabs.push(e => this.grab(e));
     this.place();
@@ -57,9 +57,13 @@ class TurnRings {
     }
   }
 
+  // The rings are there from the first time on that an end is taken.
   around(key) {
     this.key = key;
     this.place();
+    if (this.group.visible) return;
+    this.group.visible = true;
+    this.viewer.stage.labels.push(...Object.values(this.names));
   }
 
   // Of the ring about an axis, at an angle.
@@ -112,7 +116,8 @@ class TurnRings {
 
   grab(e) {
     const {viewer} = this;
-    if (e.button !== 0 || e.shiftKey || !viewer.state.show.marks) return null;
+    if (e.button !== 0 || e.shiftKey || !viewer.state.show.marks ||
+        !this.group.visible) return null;
     const ring = this.at(e);
     if (!ring) return null;
     const first = this.angleAt(e, ring.name);

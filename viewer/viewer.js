@@ -6,8 +6,8 @@ class Viewer {
   // `context`: of the canvas, by WebGL.
   constructor(data, context) {
     this.data = data;
-    this.state = this.defaults();
     this.stage = new DressedStage(data);
+    this.state = this.defaults();
     this.camera = new THREE.PerspectiveCamera(
         kFieldOfView * 180 / Math.PI, 1, 0.01, 10);
     this.renderer = new THREE.WebGLRenderer(
@@ -32,6 +32,7 @@ class Viewer {
     this.surface = this.probe ? new SurfaceMap(this) : null;
     this.panel = new Panel(this);
     this.isReady = true;
+    this.frame();  // beside what the page lays over the picture
     this.apply();
     this.wake();
     window.addEventListener('resize', () => { this.frame(); this.changed(); });
@@ -68,10 +69,11 @@ class Viewer {
       clip: {on: false, axis: 'z', at: 0.5, flip: false},
       show: {obstacle: true, contact: true, mesh: true, robot: true,
              marks: true, movers: true, stages: false, graphs: true, planes: false,
-             windows: true, regions: false, bounds: true},
+             windows: true, regions: false,
+             bounds: this.stage.areBoundsNear},
       probe: {on: false, at: null, metric: 1,
               smoothing: data.probe ? data.probe.smoothing_length : 0},
-      chart: 'size', xray: false, map: '', surface: '', below: 0.05,
+      chart: 'angle', xray: false, map: '', surface: '', below: 0.05,
       theme: isDark ? 'dark' : 'light', still: false,
     };
   }

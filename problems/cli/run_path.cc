@@ -19,6 +19,9 @@ using Json = nlohmann::ordered_json;
 // Paths of one metric from either start may be on one page.
 std::string Title(const std::string& by, std::uint64_t seed, bool is_straight,
                   std::string status) {
+  if (status == ToString(PathStatus::kInfeasibleProved)) {
+    status = "proved: there is no way";
+  }
   std::replace(status.begin(), status.end(), '_', ' ');
   return by + " · seed " + std::to_string(seed) +
          (is_straight ? " · straight start · " : " · ") + status;

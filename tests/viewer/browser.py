@@ -169,6 +169,35 @@ LOOK = """(() => {
   return [...g.getImageData(0, 0, 128, 80).data];
 })()"""
 
+# What of the labels is below something, cut off at a side, or above another by
+# more than its letters have room for.
+BAD_LABELS = """(() => {
+  viewer.draw();
+  const boxes = e => [...document.querySelectorAll(e)]
+      .map(x => [x.textContent, x.getBoundingClientRect()]);
+  const meet = (a, b) => a.left < b.right - 2 && b.left < a.right - 2 &&
+      a.top < b.bottom - 2 && b.top < a.bottom - 2;
+  const labels = boxes('#labels .name');
+  const over = boxes('#panel, #tools, #player, #title, #facts, #scalebar')
+      .filter(([, b]) => b.width > 0);
+  return labels.filter(([, b], i) => b.left < 0 || b.right > innerWidth ||
+      over.some(([, o]) => meet(b, o)) ||
+      labels.some(([, o], k) => k !== i && meet(b, o))).map(([t]) => t);
+})()"""
+# What the page lays over the picture and over something else of that, or over the
+# window's edge.
+BAD_BOXES = """(() => {
+  const boxes = [...document.querySelectorAll('#panel, #tools, #player, #reading,'
+      + '#title, #facts, #scalebar')]
+      .map(e => [e.id, e.getBoundingClientRect()])
+      .filter(([, b]) => b.width > 0 && b.height > 0);
+  const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom &&
+      b.top < a.bottom;
+  return boxes.filter(([, b], i) => b.left < 0 || b.right > innerWidth + 1 ||
+      b.bottom > innerHeight || boxes.some(([, o], k) => k !== i && meet(b, o)))
+      .map(([id]) => id);
+})()"""
+
 
 class Checks:
     def __init__(self, browser):
@@ -199,6 +228,11 @@ class Checks:
         after = self.browser.run(LOOK)
         difference = sum(abs(a - b) for a, b in zip(before, after))
         self.expect(difference > 400, f"{claim} changes the picture")
+
+    def tidy(self, name):
+        """Nothing is above anything else, and names can be read."""
+        bad = self.browser.run(BAD_BOXES) + self.browser.run(BAD_LABELS)
+        self.expect(not bad, f"{name}: {bad} overlap or are cut off")
 
     def drawn(self, name):
         look = self.browser.run(LOOK)

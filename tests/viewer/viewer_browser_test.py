@@ -73,6 +73,8 @@ def make_pages(run, folder):
     run("optimize", str(examples / "gantry.json"), "--html", "pace.html")
     run("optimize", str(examples / "robots.json"), "--html", "robots.html")
     run("plan", str(examples / "turning.json"), "--html", "turning.html")
+    run("plan", "tunnel:delta=0.001,bends=3,twin=1", "--output", "proof.jsonl",
+        "--html", "proof.html")
     (folder / "none.jsonl").write_text(
         '{"scene": "none", "planner": "prm", "seed": 1, "status": "timeout",'
         ' "solved": false, "path": []}\n')
@@ -80,7 +82,7 @@ def make_pages(run, folder):
     return {name: folder / f"{name}.html"
             for name in ("trap", "tunnel", "contact", "motion", "depth", "routes",
                          "tree", "roadmap", "corridor", "pace", "robots", "turning",
-                         "none")}
+                         "proof", "none")}
 
 
 def robots_together(browser, checks, page):
@@ -101,9 +103,21 @@ def robots_together(browser, checks, page):
                  "viewer.draw(); return viewer.state.way === 2 &&"
                  "before === at(viewer.stage.crew); })()",
                  "following another one moves none")
+    checks.holds("(() => { const {crew, labels} = viewer.stage;"
+                 "return crew.robots.every(({group}, i) => labels.some(l => "
+                 "l.way === i && crew.placeOf(l.way) === group.position)); })()",
+                 "each robot has its name where it is")
     checks.holds("[...document.querySelectorAll('button.way span')].map("
                  "e => e.textContent).join() === 'left,right,feeder'",
                  "their names in the legend")
+
+
+def a_proof(browser, checks, page):
+    """That there is no way is said first, and seen through the solids."""
+    browser.open(page)
+    checks.holds("document.getElementById('facts').textContent.endsWith("
+                 "'proved: there is no way') && viewer.state.xray",
+                 "no way, proved")
 
 
 def a_robot_that_turns(browser, checks, page):
@@ -168,6 +182,7 @@ def main():
                 continue
             # 2000 on a machine of one's own; tests share theirs.
             checks.drawn(name)
+            checks.tidy(name)
             browser.shoot(folder / f"{name}-light.png")
             browser.open(page, theme="dark")
             checks.holds("viewer.state.theme === 'dark'",
@@ -181,14 +196,15 @@ def main():
                              "#scrub-iterate')].every(e => !e.offsetParent || "
                              "e.getBoundingClientRect().width >= 100)",
                              f"{name}: sliders have room at {width}")
-            browser.open(page, width=400, height=800)
-            checks.holds("document.documentElement.scrollWidth <= 400 && "
+            browser.open(page, width=390, height=800)
+            checks.holds("document.documentElement.scrollWidth <= 390 && "
                          "[...document.querySelectorAll('header, #tools, "
                          "#player, #scalebar')].every(e => "
-                         "e.getBoundingClientRect().right <= 400 && "
+                         "e.getBoundingClientRect().right <= 390 && "
                          "e.getBoundingClientRect().left >= 0)",
                          f"{name}: fits a phone")
             checks.drawn(name + ", narrow")
+            checks.tidy(name + ", narrow")
             browser.shoot(folder / f"{name}-narrow.png")
             checks.quiet(name)
         browser.open(pages["trap"])
@@ -207,9 +223,14 @@ def main():
                      "a motion plays in its own time")
         checks.holds("document.getElementById('where').textContent"
                      ".includes('room')", "and says what it asks and has")
+        # Not at the place where it rests.
+        browser.run("viewer.set(() => { const {velocity} = viewer.pace;"
+                    "viewer.state.time = velocity.indexOf(Math.max(...velocity)) /"
+                    "velocity.length; })")
         checks.changes(lambda: browser.press("ArrowRight"), "a step of it")
         robots_together(browser, checks, pages["robots"])
         a_robot_that_turns(browser, checks, pages["turning"])
+        a_proof(browser, checks, pages["proof"])
         for name in ("turning", "trap"):
             browser.open(pages[name])
             checks.holds("![...document.querySelectorAll('button.way small, "

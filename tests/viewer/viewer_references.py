@@ -23,13 +23,11 @@ FOLDER = pathlib.Path(__file__).resolve().parent / "references"
 
 # By name: the page, its link, size and theme.
 VIEWS = {
-    "plan": ("routes", "#eye=-0.9,0.55,0.26,0,0,0&t=0.6&way=0&xray=0"
-             # Thin lines across all of it differ most by smoothing.
-             "&toggled=bounds",
+    "plan": ("routes", "#eye=-0.9,0.55,0.26,0,0,0&t=0.6&way=0&xray=0",
              400, 300, "light"),
-    "section": ("contact", "#eye=-0.9,0.9,0.75,0,0,0&cut=z,0.5,0&map=phong",
+    "section": ("contact", "#eye=-0.9,0.9,0.95,0,0,0&cut=z,0.5,0&map=phong",
                 400, 300, "light"),
-    "depth": ("depth", "#eye=-0.6,0.4,0.8,0,0,0&t=0&way=0&xray=1",
+    "depth": ("depth", "#eye=-0.6,0.4,1.05,0,0,0&t=0&way=0&xray=1",
               300, 400, "dark"),
 }
 

@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 
+from browser import BAD_LABELS
 from serving import Served
 from viewer_controls import entered
 from viewer_task import SAYS, by_mouse, solve
@@ -18,21 +19,6 @@ ON_RING = """(() => {{
   return [box.left + (p.x + 1) / 2 * box.width,
           box.top + (1 - p.y) / 2 * box.height];
 }})()"""
-# What of the labels is below something, cut off at a side, or above another by
-# more than its letters have room for.
-BAD_LABELS = """(() => {
-  viewer.draw();
-  const boxes = e => [...document.querySelectorAll(e)]
-      .map(x => [x.textContent, x.getBoundingClientRect()]);
-  const meet = (a, b) => a.left < b.right - 2 && b.left < a.right - 2 &&
-      a.top < b.bottom - 2 && b.top < a.bottom - 2;
-  const labels = boxes('#labels .name');
-  const over = boxes('#panel, #tools, #player, #title, #facts, #scalebar')
-      .filter(([, b]) => b.width > 0);
-  return labels.filter(([, b], i) => b.left < 0 || b.right > innerWidth ||
-      over.some(([, o]) => meet(b, o)) ||
-      labels.some(([, o], k) => k !== i && meet(b, o))).map(([t]) => t);
-})()"""
 
 
 def dragged(browser, of, to):
@@ -95,6 +81,10 @@ def work_turning(browser, checks, program, folder):
     """Rings and fields turn the robot; what is found begins and ends so."""
     with Served(program, folder, str(EXAMPLES / "turning.json")) as served:
         browser.open(served.address)
+        checks.holds("!viewer.task.rings.group.visible",
+                     "no rings before an end is taken")
+        by_mouse(browser, "start", 0, 0)
+        checks.holds("viewer.task.rings.group.visible", "rings from then on")
         # From above a quarter around the ring about z is a quarter.
         browser.run("(viewer.orbit.pitch = Math.PI / 2, viewer.orbit.yaw = 0.2, "
                     "0)")

@@ -49,6 +49,9 @@ def choose(browser, what):
 def work_task(browser, checks, page):
     """A page that nobody serves: ends move, depth comes, all else is told."""
     browser.open(page)
+    checks.holds("!document.querySelector('#task details').open",
+                 "where there is no solver, its fields are folded")
+    browser.click("#task summary")
     first = browser.run("viewer.data.goal.slice()")
     yaw = browser.run("viewer.orbit.yaw")
     x, y = by_mouse(browser, "goal", 60, -40)
@@ -196,7 +199,7 @@ def chart_of_a_motion(browser, checks, page):
     browser.open(page)
     picture = "document.getElementById('chart').toDataURL()"
     seen = {browser.run(picture)}
-    for kind in ("change", "angle"):
+    for kind in ("change", "size"):
         browser.run(entered("chart-kind", kind))
         seen.add(browser.run(picture))
     checks.expect(len(seen) == 3, "three charts")
@@ -216,7 +219,7 @@ def chart_of_a_motion(browser, checks, page):
                  "motion.traces[1].pd)) < 45",
                  "Euclidean PD flips, PhongPD does not")
     browser.open_link(page)
-    checks.holds("viewer.state.chart === 'angle'", "a link keeps it")
+    checks.holds("viewer.state.chart === 'size'", "a link keeps it")
     checks.quiet("chart")
 
 
