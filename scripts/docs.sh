@@ -18,9 +18,12 @@ cp /usr/share/javascript/normalize.css/normalize.css $styles
 sed -i 's|/javascript/normalize.css/normalize.css|normalize.css|' \
   $styles/furo.css
 scripts/docs_dark.py $styles/furo.css
-# Two columns of the index do not fit a narrow screen.
+# Two columns of the index do not fit a narrow screen; figures scroll there, or
+# their words are too small.
 echo '@media (max-width:46em) {
   .indextable td { display: block; width: auto !important }
+  a.image-reference { display: block; overflow-x: auto }
+  a.image-reference img[src$=".svg"] { max-width: none; width: 36em }
 }' >>$styles/furo.css
 # Its script imports another, which browsers do in modules only, and of files not
 # at all: both in one.

@@ -2,8 +2,10 @@
 """Shapes of a plane as SVG, in colours that are readable on light and on dark."""
 import numpy as np
 
-EUCLID, PHONG, OBSTACLE, FREE, TEXT = (
-    "#2f7fd0", "#e0662a", "#8a94a0", "#1f9e77", "#76808c")
+# Of the metrics, in the hues that they have everywhere (metric_colors_test.py).
+EUCLID, PHONG = "#e0662a", "#2f7fd0"
+CONTACT, MOVES, OBSTACLE, FREE, TEXT = (
+    "#2f93d0", "#9a6bc4", "#8a94a0", "#1f9e77", "#76808c")
 
 
 class Drawing:

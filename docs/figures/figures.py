@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from drawing import EUCLID, FREE, OBSTACLE, PHONG, TEXT, Drawing
+from drawing import CONTACT, EUCLID, FREE, MOVES, OBSTACLE, PHONG, TEXT, Drawing
 from phong_field import Field
 from plane import (clip, clip_segment, closest_pair, contact_pieces, convolution,
                    cross, nearest, normal, polygon, segments_meet)
@@ -27,18 +27,18 @@ def contact_space():
     d.area(L_SHAPE, OBSTACLE, opacity=0.5)
     for a, b, is_free in pieces:
         if is_free:
-            d.line([a, b], EUCLID, 2.5)
+            d.line([a, b], CONTACT, 2.5)
     on = next((a + 0.4 * (b - a)) for a, b, f in pieces
               if f and abs(normal(a, b)[0] + 1) < 1e-9)
     for q, name, where in ((on, "touches", (-0.55, 0.6)),
                            (np.array([4.6, 1.7]), "overlaps", (0.55, 0.45)),
                            (np.array([5.9, 3.4]), "apart", (0.55, 0.2))):
-        d.area(ROBOT + q, PHONG, PHONG, opacity=0.35)
-        d.dot(q, PHONG)
-        d.text(q + where, name, PHONG,
+        d.area(ROBOT + q, MOVES, MOVES, opacity=0.35)
+        d.dot(q, MOVES)
+        d.text(q + where, name, MOVES,
                "end" if where[0] < 0 else "start")
     d.text((5.9, 1.2), "B", TEXT)
-    d.text((6.95, 0.55), "C_cont", EUCLID)
+    d.text((6.95, 0.55), "C_cont", CONTACT)
     d.text((0.15, 4.6), "dot: the configuration q of the robot A", TEXT)
     return d
 
@@ -47,7 +47,7 @@ def motion_check():
     d = Drawing(8.6, 4.9)
     d.area(U_SHAPE, OBSTACLE, opacity=0.35)
     for a, b, is_free in contact_pieces(U_SHAPE, ROBOT):
-        d.line([a, b], EUCLID, 2.6 if is_free else 1.2, "" if is_free else "4 3")
+        d.line([a, b], CONTACT, 2.6 if is_free else 1.2, "" if is_free else "4 3")
     start, end = np.array([7.9, 3.5]), np.array([3.6, 2.0])
     hits = []
     for a, b in convolution(U_SHAPE, -ROBOT):
@@ -59,9 +59,9 @@ def motion_check():
     for t in sorted(hits)[1:]:
         d.dot(start + t * (end - start), TEXT, 3)
     d.dot(start, FREE)
-    d.dot(first, PHONG, 5)
+    d.dot(first, MOVES, 5)
     d.text(start + (-0.3, 0.2), "a, free", FREE)
-    d.text(first + (0.3, -0.35), "first hit", PHONG)
+    d.text(first + (0.3, -0.35), "first hit", MOVES)
     d.text((0.15, 4.6), "thick: C_cont; dashed: the rest of the convolution, "
            "inside C_obj", TEXT)
     return d
@@ -156,16 +156,16 @@ def window():
     depth, contact = min(candidates, key=lambda c: c[0])
     for half, dash in ((0.55, "4 4"), (1.15, "")):
         low, high = q - half, q + half
-        d.area([low, (high[0], low[1]), high, (low[0], high[1])], EUCLID, TEXT,
+        d.area([low, (high[0], low[1]), high, (low[0], high[1])], CONTACT, TEXT,
                1.5, 0.06, dash)
         for a, b in free:
             part = clip_segment(a, b, low, high)
             if part:
-                d.line(part, EUCLID, 2.8)
-    d.circle(q, depth, PHONG)
-    d.arrow(q, contact, PHONG, 2.2)
-    d.dot(q, PHONG)
-    d.text(q + (0.1, -0.25), "q", PHONG)
+                d.line(part, CONTACT, 2.8)
+    d.circle(q, depth, EUCLID)
+    d.arrow(q, contact, EUCLID, 2.2)
+    d.dot(q, EUCLID)
+    d.text(q + (0.1, -0.25), "q", EUCLID)
     d.text((7.0, 3.0), "second window: it holds a point", TEXT)
     d.text((7.0, 2.7), "of C_cont that is nearer", TEXT)
     d.text((7.0, 2.4), "than its walls: certified", TEXT)
@@ -188,10 +188,10 @@ def corridor():
             cell = clip(cell, n, np.dot(n, of))
         d.area(cell, FREE, FREE, 1.2, 0.13)
     for block in blocks:
-        d.area(block, OBSTACLE, EUCLID, 2.2, 0.4)
-    d.line(path, PHONG, 2.5)
+        d.area(block, OBSTACLE, CONTACT, 2.2, 0.4)
+    d.line(path, MOVES, 2.5)
     for p in path:
-        d.dot(p, PHONG)
+        d.dot(p, MOVES)
     d.text(blocks[0].mean(0) + (0, -0.1), "C_obj", TEXT, "middle")
     d.text(blocks[1].mean(0), "C_obj", TEXT, "middle")
     return d
@@ -203,19 +203,19 @@ def cells():
     hole = polygon((3.2, 1.3), (5.5, 1.3), (5.5, 2.9), (3.2, 2.9))
     d.parts.append(
         f'<path d="M{d._points(ring)}Z M{d._points(hole[::-1])}Z" '
-        f'fill="{OBSTACLE}" fill-opacity="0.4" stroke="{EUCLID}" '
+        f'fill="{OBSTACLE}" fill-opacity="0.4" stroke="{CONTACT}" '
         'stroke-width="2.2" fill-rule="evenodd"/>')
     start, goal = np.array([1.0, 2.6]), np.array([4.2, 2.1])
     for p, to in ((start, (8.3, 2.6)), (goal, (8.3, 2.1))):
         d.arrow(p, to, TEXT, 1.2)
-        d.dot(p, PHONG)
+        d.dot(p, MOVES)
     for x, y in ((2.2, 2.6), (3.2, 2.6), (5.5, 2.6), (6.6, 2.6), (5.5, 2.1),
                  (6.6, 2.1)):
-        d.dot((x, y), EUCLID, 3.5)
-    d.text(start + (-0.1, 0.2), "start", PHONG)
-    d.text(goal + (-0.1, -0.35), "goal", PHONG)
-    d.text((2.3, 0.15), "outer shell", EUCLID)
-    d.text((4.35, 1.4), "cavity", EUCLID, "middle")
+        d.dot((x, y), CONTACT, 3.5)
+    d.text(start + (-0.1, 0.2), "start", MOVES)
+    d.text(goal + (-0.1, -0.35), "goal", MOVES)
+    d.text((2.3, 0.15), "outer shell", CONTACT)
+    d.text((4.35, 1.4), "cavity", CONTACT, "middle")
     return d
 
 

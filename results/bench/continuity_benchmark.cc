@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "problems/output/gnuplot.h"
+#include "problems/output/metric_color.h"
 #include "results/bench/continuity_measure.h"
 #include "results/bench/model_spaces.h"
 #include "results/bench/program.h"
@@ -48,6 +49,14 @@ Table RowTable(const std::vector<Row>& rows) {
       });
 }
 
+// Of the metric that a rule is of, as gnuplot's "rgb variable" has it.
+unsigned long ColorOf(const std::string& rule) {
+  const std::string color = rule == "euclidean" ? kEuclideanColor
+                            : rule == "tracker" ? kSlidingColor
+                                                : kPhongColor;
+  return std::stoul(color.substr(1), nullptr, 16);
+}
+
 // Jumps in 1000 frames against the ratio: bounds as a line, metrics as points
 // at their mean with a bar to the 99 % quantile.
 std::string Draw(const std::vector<Row>& totals) {
@@ -58,7 +67,7 @@ std::string Draw(const std::vector<Row>& totals) {
       bound << r.ratio << ' ' << often << '\n';
     } else {
       metrics << r.Mean() << ' ' << often << ' ' << Quantile(r.ratios, 0.99)
-              << " \"" << r.rule << "\"\n";
+              << " \"" << r.rule << "\" " << ColorOf(r.rule) << '\n';
     }
   }
   return RenderSvg(
@@ -69,8 +78,8 @@ std::string Draw(const std::vector<Row>& totals) {
           "set xlabel 'depth / Euclidean depth: bound of any rule; mean of a "
           "metric, bar to 99 %'\nset ylabel 'jumps in 1000 frames'\n"
           "plot $b using 1:2 with linespoints lw 2 pt 7 lc rgb '#808080' title "
-          "'least of any rule', $m using 1:2:1:3 with xerrorbars pt 7 ps 1.2 "
-          "lc rgb '#0060B0' notitle, $m using 1:2:4 with labels left offset "
+          "'least of any rule', $m using 1:2:1:3:5 with xerrorbars pt 7 ps 1.2 "
+          "lc rgb variable notitle, $m using 1:2:4 with labels left offset "
           "0.5,0.7 notitle\n",
       900, 520);
 }

@@ -63,6 +63,8 @@ def moment_figure(cut, traces):
         "set ylabel 'z [length]'\nset key bottom center outside horizontal maxcols 2 "
         "samplen 3\n")
     for k, label in enumerate(traces):
+        colour = METRIC_COLOURS["euclidean" if label.startswith("Euclidean") else
+                                "phong"]
         script += (
             f"set title '{label}' noenhanced\n"
             "plot $obstacle w l lc rgb '#404040' lw 3 t 'obstacle', "
@@ -70,6 +72,6 @@ def moment_figure(cut, traces):
             "$first w l lc rgb '#B8D0E8' lw 1.5 t 'robot, first', "
             "$last w l lc rgb '#E8C8A0' lw 1.5 t 'robot, last', "
             f"$pd{k} u 1:2:3:4 w vectors head filled size 0.05,20 lw 1.3 lc rgb "
-            f"'#0060B0' t 'PD', $pd{k} u 1:2 w p pt 7 ps 0.35 lc rgb '#000000' t "
+            f"'{colour}' t 'PD', $pd{k} u 1:2 w p pt 7 ps 0.35 lc rgb '#000000' t "
             "'robot centre'\n")
     return render(script + "unset multiplot\n", 1250, 520)

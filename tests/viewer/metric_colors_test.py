@@ -56,6 +56,13 @@ class MetricColors(unittest.TestCase):
             self.assertGreater(dark_lightness, lightness, name)
             self.assertLess(abs(hue - dark_hue), 0.03, name)
 
+    def test_have_their_hues_in_the_figures_of_the_pages(self):
+        found = re.search(rf'EUCLID, PHONG = "({HEX})", "({HEX})"',
+                          text("docs/figures/drawing.py"))
+        for name, color in zip(("euclidean", "phong"), found.groups()):
+            self.assertLess(abs(hls(of_cpp()[name])[0] - hls(color)[0]), 0.06,
+                            name)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
