@@ -72,8 +72,8 @@ echo "Three carriages that change places past a column:"
 run optimize examples/robots.json --html "$demo/robots.html" | note robots
 
 echo
-echo "An L that has to turn to get through a window:"
-run plan examples/turning.json --output "$demo/turning.jsonl" \
+echo "A rod that has to turn to get out of a box:"
+run plan rod_trap:0.5 --time 60 --output "$demo/turning.jsonl" \
   --html "$demo/turning.html"
 
 echo
@@ -81,7 +81,8 @@ echo "A passage one thousandth wide, and the same closed by a ten-thousandth:"
 passage=tunnel:delta=0.001,bends=3
 run plan "$passage" --output "$demo/tunnel.jsonl" \
   --html "$demo/tunnel.html" --svg "$demo/tunnel.svg"
-more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl"
+more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl" \
+  --html "$demo/tunnel_twin.html"
 more plan "$passage" --planner retraction-forest \
   --output "$demo/tunnel_forest.jsonl"
 for twin in "" _twin; do

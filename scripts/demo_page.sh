@@ -19,20 +19,20 @@ readable() {
     print text $0
   }' "$1"
 }
-said() { # FILE: the lines of a command
-  printf '<pre>'
+said() { # FILE: the lines of a command, for who wants them
+  printf '<details><summary>What the command printed</summary><pre>'
   readable "$1"
-  printf '</pre>\n'
+  printf '</pre></details>\n'
 }
 rows() { # KIND FILE...: of the same rows sentences, by nobody's expectation, ...
-  echo '<p>'
-  "$scripts/demo_sentences.py" "$@"
-  echo '</p>'
+  echo '<ul>'
+  "$scripts/demo_sentences.py" "$@" | sed 's|.*|<li>&</li>|'
+  echo '</ul>'
 }
 table() { # ... and a table
-  echo '<div class="wide"><table>'
+  echo '<details><summary>All runs, in numbers</summary><div class="wide"><table>'
   "$scripts/demo_sentences.py" --table "$@"
-  echo '</table></div>'
+  echo '</table></div></details>'
 }
 frame() { # PAGE TITLE
   printf '<iframe src="%s" title="%s" loading="lazy"></iframe>\n' "$1" "$2"
@@ -65,68 +65,87 @@ frame() { # PAGE TITLE
   th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid var(--line);
            min-width: 4.5em; }
   .why td { color: #888; padding-left: 16px; }
-  .small { font-size: 14px; margin-top: 4px; }
+  .small, summary { font-size: 14px; }
+  .small { margin-top: 4px; }
+  summary { cursor: pointer; }
+  /* Three panes, one above the other, need the height. */
+  @media (max-width: 760px) { iframe { height: min(88vh, 760px); } }
   li { margin: 6px 0; max-width: 46em; }
 </style>
 <section>
 <h1>How deep, and which way out?</h1>
-<p>PhongPD answers that for any two closed triangle meshes of which one translates:
-exactly, and with a direction that turns continuously.</p>
-<h2>The moment Euclidean depth flips</h2>
-<p>A ball is pushed over the handle of a wrench. Press play: half-way the nearest way
-out is on the other side, and the Euclidean arrow flips within one frame. PhongPD
-follows one side until its branch ends and says when; the sliding contact moves over
-the surface at a bounded speed and does not jump while the ball is inside. Or push it yourself: the probe (P) lets
-you drag the ball and answers in the page, by the library compiled to WebAssembly.</p>
+<p>Two solids overlap. How far must one of them move until they are apart, and in which
+direction? PhongPD answers exactly, for any two closed triangle meshes. Its way out turns
+as the solid moves on, where the shortest way out jumps. On that stand motions for
+machines, and proofs that there is no way. Here are six pictures of it: turn them, play
+them.</p>
+<h2>1. The shortest way out jumps; PhongPD turns</h2>
+<p>A ball is pushed over the handle of a wrench. The arrow is the way out, the pale ball
+where that leads. Press play: twice the shortest way out (orange, Euclidean) is suddenly on
+another side, and its arrow jumps from one frame to the next; the chart shows how much each
+arrow turns. PhongPD (blue) keeps to one side for as long as that goes on, and turns. The
+sliding contact (green) moves over the surface no faster than a limit that you set. Or push
+the ball yourself: tick <em>drag the robot</em>.</p>
 HTML
-  frame motion.html "Three metrics along one motion"
+  frame motion.html "Three ways out along one motion"
   said motion.txt
-  echo '</section><section><h2>Out of a trap</h2>
-<p>Ipopt starts on the straight line, through the wall of a U. The exact
-judge has the last word on every path. This is one seed; over many scenes and seeds
-Euclidean depth and PhongPD solve about as many with adaptive mu.</p>'
+  echo '</section><section><h2>2. Which direction helps a solver</h2>
+<p>A solver (Ipopt) looks for a way for the ball from one side of a U to the other. It begins
+with the straight line, which goes through the walls, and is told in each step which way
+is out of them. A solid line is free, as an exact check found; a dashed one still
+collides. This is one example. Over many scenes and seeds both directions solve about as
+many, where Ipopt adapts its steps (mu).</p>'
   trap=(trap trap_euclidean.jsonl trap_phong.jsonl trap_adaptive_euclidean.jsonl
     trap_adaptive_phong.jsonl trap_pipeline.jsonl)
+  frame trap.html "Paths that a solver found, by either direction"
   rows "${trap[@]}"
-  frame trap.html "Paths out of a trap"
   table "${trap[@]}"
-  echo '</section><section><h2>A trajectory that a machine runs</h2>
-<p>The gripper of a gantry goes over a wall, by way of a camera that looks at the part,
-into a rack. The curve is free and within the limits of velocity, acceleration and jerk
-for all t: proved on the curve itself, not at samples. Press play: it moves in its own
-time, and the chart says what it asks of the limits.</p>'
-  frame gantry.html "A trajectory of a gantry, played in its own time"
+  echo '</section><section><h2>3. A motion that a machine can run</h2>
+<p>The gripper of a gantry goes over a wall, to a camera that looks at the part for a
+fifth of a second, and into a rack. It touches nothing and keeps its limits of velocity,
+acceleration and jerk at every moment: that is proved for the whole curve, not at samples.
+Press play: it takes as long as the machine would, and the chart shows how much of each
+limit it uses.</p>'
+  frame gantry.html "A motion of a gantry, played in its own time"
   said gantry.txt
-  echo '<p>For its controller: <a href="gantry.csv">rows every 4 ms</a>, <a
-href="gantry.json">the curve</a>; <code>.gcode</code> and ROS 2 by the name of the
+  echo '<p>For its controller: <a href="gantry.csv">a row every 4 ms</a>, <a
+href="gantry.json">the curve</a>; also <code>.gcode</code> and ROS 2, by the name of the
 file.</p>'
-  echo '</section><section><h2>Robots that change places</h2>
-<p>Three carriages of a table, each with limits of its own, past a column. Every pair
-keeps apart for all t, proved on the curves; one waits, or goes first.</p>'
+  echo '</section><section><h2>4. Robots that change places</h2>
+<p>Three carriages on a table go past a column and past each other, each within limits of
+its own. That no two ever touch is proved for every moment. Press play, and click a name
+to see what its robot asks of its limits.</p>'
   frame robots.html "Three robots that change places, in one time"
   said robots.txt
-  echo '</section><section><h2>A body that turns through a window</h2>
-<p>Neither leg of the L fits through with the other beside it: it goes through one leg
-first, and turns. Between two poses it moves and turns at once, and every such motion
-is proved free for all t. Not to find a way would prove nothing here.</p>'
+  echo '</section><section><h2>5. A body that turns to get out of a trap</h2>
+<p>A rod lies across a closed box. The one way out is a tunnel that reaches into the box
+and is narrower than the rod is long: the rod has to find its mouth and turn into it. From
+pose to pose it moves and turns at once, and all of each motion is proved free. (Where no
+way is found for a body that turns, that proves nothing.)</p>'
+  frame turning.html "A rod on its way out of a box"
   rows turning turning.jsonl
-  frame turning.html "An L on its way through a window"
   table turning turning.jsonl
-  echo '</section><section><h2>A passage a thousandth wide, and a proof</h2>
-<p>A channel a thousandth wide, and the same closed by a ten-thousandth. A proof says
-that start and goal lie in different cells of free space; a sampler can find a path, and
-never prove that there is none. Seconds are those of the search; the contact space,
-where one is built, comes before.</p>'
+  echo '</section><section><h2>6. A proof that there is no way</h2>
+<p>A cube is to go through a bent channel into a closed room. First the channel is a
+thousandth wider than the cube, and there is a way. Then it is a ten-thousandth narrower
+than the cube, which nobody can see: there is none. Planners that try places at random
+cannot know that; they look until their time is up. PhongPD knows every place where the
+cube touches anything, and with it all the room that it has: start and goal lie in parts of
+it that are not connected.</p>'
   tunnel=(tunnel tunnel.jsonl tunnel_twin.jsonl tunnel_forest.jsonl
     tunnel_rrt_connect.jsonl tunnel_twin_rrt_connect.jsonl)
+  frame tunnel.html "A path through a channel that is open"
+  frame tunnel_twin.html "The same channel, closed: no path, and the proof"
+  echo '<p>What planners said of either, each by its name:</p>'
   rows "${tunnel[@]}"
-  frame tunnel.html "A path through a narrow passage"
+  echo '<p>Seconds are those of the search; what the cube touches is found before.</p>'
   table "${tunnel[@]}"
   echo '</section><section><h2>Your own two meshes</h2>
-<p>STL, OBJ, OFF or PLY, closed, in one unit. Nothing is precomputed; the answer is the
-global one, with a certificate and the two points that touch.</p>'
-  said depth.txt
-  echo '<p>Repair, many poses, turned robots: <code>build/phongpd depth --help</code>. From
+<p>STL, OBJ, OFF or PLY, closed, in one unit. Nothing is prepared beforehand. The depth is
+the least there is, with a certificate and the two points that touch.</p>
+<pre>'
+  readable depth.txt
+  echo '</pre><p>Repair, many poses, turned robots: <code>build/phongpd depth --help</code>. From
 Python: <code>phongpd.depth("tool.stl", "part.stl")</code>.</p>
 <h2>What it costs, and where Euclidean depth is the better choice</h2>
 <ul>

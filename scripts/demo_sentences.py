@@ -8,7 +8,7 @@ import html
 import json
 import sys
 
-MU = {"monotone": "With monotone mu, the strategy of the comparison",
+MU = {"monotone": "With monotone mu, which is Ipopt's own rule for its steps",
       "adaptive": "With adaptive mu"}
 
 
@@ -16,16 +16,20 @@ def metric(row):
     return "Euclidean depth" if row["metric"] == "euclidean" else "PhongPD"
 
 
+def why(row):
+    return row["reason"].replace("_", " ")
+
+
 def trap(rows):
     """The runs from the straight line by mu, then those with a repaired start."""
     groups = {}
     for row in rows:
         name = (MU[row["mu_strategy"]] if row["start"] == "straight" else
-                "The default pipeline, which repairs the start first")
+                "The default pipeline, which first mends the line")
         count = f"{row['iterations']} iterations"
         groups.setdefault(name, []).append(
             f"{metric(row)} gets out in {count}" if row["collision_free"] else
-            f"{metric(row)} does not get out ({row['reason']}; {count})")
+            f"{metric(row)} does not get out ({why(row)}; {count})")
     return [f"{name}: {'; '.join(said)}." for name, said in groups.items()]
 
 
@@ -55,7 +59,7 @@ def turning(rows):
         said.append(
             f"{row['planner']} finds a way of {len(row['path'])} poses in {seconds}."
             if row["solved"] else
-            f"{row['planner']} finds none in {seconds} ({row['reason']}).")
+            f"{row['planner']} finds none in {seconds} ({why(row)}).")
     return said
 
 
@@ -100,7 +104,7 @@ def table(kind, rows):
         lines.append(line("td", [of(row) for _, of in columns]))
         if row.get("reason"):
             lines.append(f'<tr class="why"><td colspan="{len(columns)}">' +
-                         html.escape(row["reason"], quote=False) + "</td></tr>")
+                         html.escape(why(row), quote=False) + "</td></tr>")
     return lines
 
 
