@@ -174,6 +174,12 @@ int AnswerFleet(FleetScene scene, const TimedFlags& flags) {
     AddFleet(robots, answer, &view);
     outputs.Write(flags.html, ViewPage(view));
   }
+  for (std::size_t i = 0; i < answer.robots.size(); ++i) {
+    const FleetRobot& robot = robots[i];
+    const std::string slow = SlownessNote(robot.world.workspace().unit,
+                                          robot.request, answer.robots[i]);
+    if (!slow.empty()) Warn(robot.name + ": " + slow);
+  }
   CommitAndTell(&outputs, FleetText(scene, robots, answer));
   if (answer.status == PathStatus::kVerificationFailed) {
     FailVerification(scene.name + ": " + answer.reason);

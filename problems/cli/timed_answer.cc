@@ -63,21 +63,20 @@ std::string TimedSentence(const Scene& scene, const PathAnswer& answer) {
          " of acceleration, " + Percent(use.jerk) + " of jerk" + more;
 }
 
-// Limits in metres of a scene in millimetres make a motion of minutes.
-void WarnOfSlowness(const Scene& scene, const OptimizeRequest& request,
-                    const PathAnswer& answer) {
-  constexpr double kSlow = 600.0;  // seconds
+}  // namespace
+
+std::string SlownessNote(const std::string& unit,
+                         const OptimizeRequest& request,
+                         const PathAnswer& answer) {
+  constexpr double kSlow = 600.0;  // seconds; of Python, too (_sizes.py)
   const double seconds = answer.motion.duration();
   if (answer.motion.empty() || !(seconds > kSlow) || request.duration > 0.0) {
-    return;
+    return "";
   }
-  const std::string& unit = scene.workspace.unit;
-  Warn("the motion takes " + Rounded(seconds) +
-       " s; are the limits in the scene's unit" +
-       (unit.empty() ? "" : ", " + unit) + "?");
+  return "the motion takes " + Rounded(seconds) +
+         " s; are the limits in the scene's unit" +
+         (unit.empty() ? "" : ", " + unit) + "?";
 }
-
-}  // namespace
 
 int AnswerInTime(const Scene& scene, const TimedFlags& flags,
                  const std::function<PathAnswer(const World&,
@@ -119,7 +118,8 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
   ctrl_c.reset();
   const WorldSpaces* const built = world.Built(SpaceLayout::kSealed);
   TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
-  WarnOfSlowness(scene, request, answer);
+  const std::string slow = SlownessNote(scene.workspace.unit, request, answer);
+  if (!slow.empty()) Warn(slow);
   if (!target.empty()) {
     const TimedJson row = MotionRow(scene, world, request, answer);
     outputs.Write(target, MotionText(form, world, answer, row, rate));

@@ -36,4 +36,10 @@ int AnswerInTime(
     const Scene& scene, const TimedFlags& flags,
     const std::function<PathAnswer(const World&, const OptimizeRequest&)>& ask);
 
+// What to ask where a motion takes more than ten minutes that nobody asked for:
+// limits in metres of a scene in millimetres make such.  Empty: nothing.
+std::string SlownessNote(const std::string& unit,
+                         const OptimizeRequest& request,
+                         const PathAnswer& answer);
+
 }  // namespace phongpd::cli

@@ -141,7 +141,7 @@ def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
         given.append((key, world._native, *world._ends(start, goal), wishes))
     answer = _native.optimize_fleet(name, given, moving_of(moving)[0])
     row = answer.row
-    motions = {task[0]: motion_of(one, task[1])
+    motions = {task[0]: motion_of(one, task[1], 0.0, f"{task[0]}: ")
                for one, task in zip(answer.robots, tasks)}
     return Fleet(status=answer.status, reason=answer.reason,
                  solved=answer.is_solved, certified=answer.is_solved,

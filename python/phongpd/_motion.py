@@ -17,6 +17,7 @@ from ._arguments import Floats, flag, is_zero, length, motion_end, motion_limits
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
 from ._room import Room, limits_in
+from ._sizes import warn_of_slowness
 from ._view import Canvas
 
 
@@ -155,7 +156,11 @@ class Motion(WayInWorld):
                 f"clearance {self.clearance:.6g} at least")
 
 
-def motion_of(answer: _native.PathAnswer, world: Room) -> Motion:
+def motion_of(answer: _native.PathAnswer, world: Room, asked: float,
+              whose: str = "") -> Motion:
+    """`asked`: the seconds that it was to take; 0: as few as can be."""
+    if not asked:
+        warn_of_slowness(answer.duration, world.unit, whose)
     return Motion(
         status=answer.status, reason=answer.reason, solved=answer.is_solved,
         certified=answer.is_free, duration=answer.duration,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Metres beside millimetres."""
+"""Metres beside millimetres, in sizes and in limits."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ import numpy as np
 
 from ._arguments import Floats
 
-# As the program has it (operand_notes.cc).
+# As the program has them (operand_notes.cc, timed_answer.cc).
 SUSPICIOUS = 300.0
+SLOW = 600.0  # seconds
 
 Named = Tuple[str, Floats]
 
@@ -32,6 +33,16 @@ def warn_of_sizes(robot: Named, obstacles: Iterable[Named]) -> None:
                 UserWarning, stacklevel=_callers_level())
 
 
+def warn_of_slowness(seconds: float, unit: str, whose: str = "") -> None:
+    """What the program says of a motion of more than ten minutes that nobody
+    asked for."""
+    if seconds > SLOW:
+        warnings.warn(
+            f"{whose}the motion takes {seconds:.3g} s; are the limits in the "
+            f"scene's unit{', ' + unit if unit else ''}?",
+            UserWarning, stacklevel=_callers_level())
+
+
 def _diagonal(vertices: Floats) -> float:
     if not len(vertices):
         return 0.0
@@ -39,7 +50,7 @@ def _diagonal(vertices: Floats) -> float:
 
 
 def _callers_level() -> int:
-    """Of warn in warn_of_sizes: the first line outside of this package."""
+    """Of warn in its callers: the first line outside of this package."""
     folder, level, frame = os.path.dirname(__file__), 1, sys._getframe(1)
     while frame.f_back is not None and \
             os.path.dirname(frame.f_code.co_filename) == folder:

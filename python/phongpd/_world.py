@@ -112,7 +112,8 @@ class World(Room):
                 tolerance=tolerance, dwell=dwell, duration=duration,
                 departure=departure, arrival=arrival)
             return motion_of(self._native.optimize_in_time(
-                *ends, text(model, "model"), wishes, moving_of(moving)[0]), self)
+                *ends, text(model, "model"), wishes, moving_of(moving)[0]), self,
+                self._native.scene.duration if duration is None else duration)
         _require_none("a path without limits", via=via is not None,
                       tolerance=tolerance is not None,
                       dwell=not is_zero(dwell), duration=duration is not None,
@@ -168,7 +169,7 @@ class World(Room):
             duration=real(duration, "duration"),
             departure=rest if departure is None else departure,
             arrival=rest if arrival is None else arrival)
-        return motion_of(self._native.retime(points, wishes), self)
+        return motion_of(self._native.retime(points, wishes), self, duration)
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,

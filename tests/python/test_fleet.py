@@ -43,6 +43,12 @@ def swap(room, **wishes):
         limits=LIMITS, preset="fast", **wishes)
 
 
+def test_limits_that_make_them_slow_are_asked_about(room):
+    with pytest.warns(UserWarning, match="left: the motion takes"):
+        phongpd.optimize_fleet({"left": (room, (-1, 0.3, 0), (1, 0.3, 0))},
+                               limits=(1e-3, 2, 20), preset="fast")
+
+
 def test_robots_change_places(room):
     fleet = swap(room)
     assert fleet.certified

@@ -4,6 +4,7 @@
 import json
 import pickle
 import subprocess
+import warnings
 
 import numpy as np
 import phongpd
@@ -31,6 +32,18 @@ def test_a_motion_is_free_and_keeps_its_limits(world, motion):
     for order, limit in enumerate(LIMITS, 1):
         assert np.abs(motion.at(times, order)).max() <= limit * (1 + 1e-9)
     assert 0 < motion.clearance <= world.clearance(motion.at(times)).min() + 1e-9
+
+
+def test_limits_that_make_it_slow_are_asked_about(world):
+    slow = {"limits": (1e-3, 2, 10), "preset": "fast"}
+    with pytest.warns(UserWarning, match="takes .* s; are the limits") as said:
+        world.optimize(START, GOAL, **slow)
+    assert said[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        asked = world.optimize(START, GOAL, duration=7200, **slow)
+    with pytest.warns(UserWarning, match="are the limits"):
+        world.retime(asked.path, limits=(1e-3, 2, 10))
 
 
 def test_derivatives_are_those_of_the_position(motion):

@@ -57,6 +57,18 @@ class CliRobots : public CliScenes {
   }
 };
 
+TEST_F(CliRobots, AreAskedForTheUnitOfLimitsThatMakeThemSlow) {
+  Json slow = Swap();
+  slow["limits"]["velocity"] = 0.001;
+  const Outcome outcome = Run("optimize " + Scene(slow));
+  for (const std::string robot : {"left", "right"}) {
+    EXPECT_NE(outcome.err.find(robot + ": the motion takes"), std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_NE(outcome.err.find("are the limits in the scene's unit, m?"),
+            std::string::npos);
+}
+
 TEST_F(CliRobots, ChangePlacesCertifiedPairByPair) {
   const std::string scene = Scene(Swap());
   const Outcome outcome = Run("optimize " + scene + " --output t.json");
