@@ -67,7 +67,7 @@ void AddBuildLimits(CLI::App* app, double* max_seconds, double* max_mib) {
                   "Refuse what is predicted to take longer, and stop "
                   "what does (0: never)")
       ->type_name("S")
-      ->check(AtLeast(0.0));
+      ->transform(SecondsFromZero());
   app->add_option("--max-mib", *max_mib,
                   "Build by boxes what is predicted to need more memory in "
                   "one, refuse what needs more even so, and stop what does "
@@ -92,7 +92,7 @@ void AddBudget(CLI::App* app, const std::string& what, std::string* budget) {
                       "triangles (results/trade/budget.md; --explain says "
                       "which). Other options win over it; it limits nothing, "
                       "--time and --max-seconds do")
-      ->check(Above(0.0))
+      ->transform(SecondsAboveZero())
       ->type_name("SECONDS");
 }
 

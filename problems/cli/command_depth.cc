@@ -332,7 +332,7 @@ void AddDepthLimits(CLI::App* app, DepthFlags* flags) {
                   "Look no farther after this time for one pose (0: no limit); "
                   "PhongPD that takes longer is refused")
       ->type_name("S")
-      ->check(AtLeast(0.0));
+      ->transform(SecondsFromZero());
 }
 
 }  // namespace

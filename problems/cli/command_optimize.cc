@@ -324,7 +324,7 @@ Command AddOptimize(CLI::App* app) {
           "goal of a family, and the noise",
           flags.get());
   app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
-      ->check(Above(0.0))
+      ->transform(SecondsAboveZero())
       ->type_name("S");
   AddOutputFlags(app, flags.get());
   AddExplain(app, &flags->explain);

@@ -271,7 +271,7 @@ Command AddPlan(CLI::App* app) {
   app->add_option("--time", flags->time_limit,
                   "Limit of a run by a sampler, seconds (scene's own if not "
                   "set)")
-      ->check(Above(0.0))
+      ->transform(SecondsAboveZero())
       ->type_name("S");
   AddRuns(app, "Of the first run", flags.get());
   AddRowOutput(app, flags.get());

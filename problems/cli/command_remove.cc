@@ -288,7 +288,7 @@ Command AddRemove(CLI::App* app) {
       "which it turns: certified, or not found, which proves nothing");
   app->add_option("--time", flags->time_limit,
                   "Of that, for a part, seconds (10 if not set)")
-      ->check(Above(0.0))
+      ->transform(SecondsAboveZero())
       ->type_name("S");
   app->add_option("--output", flags->output,
                   "The ways: FILE.csv with the columns step, part, x, y, z of "

@@ -95,6 +95,7 @@ Command AddRetime(CLI::App* app) {
                 "exit code 1");
   app->add_option("--time", flags->time_limit,
                   "Limit of the search for a faster curve, seconds")
+      ->transform(SecondsFromZero())
       ->type_name("S");
   app->add_option("--output", flags->output,
                   "Bézier pieces as JSON, rows in time as FILE.csv or, for "

@@ -216,7 +216,7 @@ void AddServe(CLI::App* app, ViewFlags* flags) {
       ->type_name("N");
   app->add_option("--time", flags->server.seconds,
                   "Of --serve: limit of an answer, seconds")
-      ->check(Above(0.0))
+      ->transform(SecondsAboveZero())
       ->capture_default_str()
       ->type_name("S");
 }

@@ -5,8 +5,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
 #include "problems/output/text.h"
 
 namespace phongpd::cli {
@@ -25,11 +27,75 @@ CLI::Validator Numbers(const std::string& range, const Test& is_good) {
       "");
 }
 
+// What a number before a unit of time is multiplied by and divided by: both are
+// exact, so that 100ms is the same number as 0.1.
+struct TimeUnit {
+  const char* name;
+  double times, over;
+};
+
+constexpr TimeUnit kTimeUnits[] = {{"us", 1.0, 1e6},
+                                   {"ms", 1.0, 1e3},
+                                   {"min", 60.0, 1.0},
+                                   {"s", 1.0, 1.0},
+                                   {"h", 3600.0, 1.0}};
+
+// Not a number for what is no time.
+double SecondsOf(const std::string& text) {
+  const std::size_t end = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz");
+  const std::string name = text.substr(end + 1);
+  std::string number = text.substr(0, end + 1);
+  if (number.empty()) return std::nan("");  // inf, nan
+  double times = 1.0, over = 1.0;
+  if (!name.empty()) {
+    const auto* const unit =
+        std::find_if(std::begin(kTimeUnits), std::end(kTimeUnits),
+                     [&](const TimeUnit& known) { return name == known.name; });
+    if (unit == std::end(kTimeUnits)) return std::nan("");
+    times = unit->times;
+    over = unit->over;
+    number.resize(number.find_last_not_of(' ') + 1);
+  }
+  try {
+    const double seconds = ParseDouble(number, "") * times / over;
+    return std::isfinite(seconds) ? seconds : std::nan("");
+  } catch (const InputError&) {
+    return std::nan("");
+  }
+}
+
+std::string TimeSyntax(const std::string& range) {
+  return "expected a number " + range +
+         " of seconds, or with its unit as 500ms, 5min or 2h, found ";
+}
+
+CLI::Validator Seconds(bool from_zero) {
+  return CLI::Validator(
+      [from_zero](std::string& text) -> std::string {
+        const double seconds = SecondsOf(text);
+        if (from_zero ? seconds >= 0.0 : seconds > 0.0) {
+          text = FormatDouble(seconds);
+          return "";
+        }
+        return TimeSyntax(from_zero ? ">= 0" : "> 0") + text;
+      },
+      "");
+}
+
 bool IsNoFile(const std::string& path) {
   return path.empty() || path == kStandardOutput || path.rfind("/dev/", 0) == 0;
 }
 
 }  // namespace
+
+double ParseSeconds(const std::string& text, const std::string& what) {
+  const double seconds = SecondsOf(text);
+  if (seconds >= 0.0) return seconds;
+  throw InputError(what + ": " + TimeSyntax(">= 0") + text);
+}
+
+CLI::Validator SecondsAboveZero() { return Seconds(false); }
+CLI::Validator SecondsFromZero() { return Seconds(true); }
 
 void AddJson(CLI::App* app, bool* json, const std::string& what) {
   app->add_flag("--json", *json, what);

@@ -51,6 +51,16 @@ CLI::Validator AtLeast(double least);
 CLI::Validator Above(double least);
 CLI::Validator Between(double least, double most);
 
+// A time in seconds: a number, or one that says its unit: 500us, 500ms, 2s,
+// 5min, 2h.  Throws InputError "WHAT: expected ..., found TEXT" for anything
+// else, negative numbers among them.
+double ParseSeconds(const std::string& text, const std::string& what);
+
+// Take what ParseSeconds reads, of what is above 0 or not below, and make plain
+// numbers of it, in seconds: for Option::transform.
+CLI::Validator SecondsAboveZero();
+CLI::Validator SecondsFromZero();
+
 // Refuses what is no folder.
 CLI::Validator IsFolder();
 

@@ -6,6 +6,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "planners/world/bare_length.h"
+#include "problems/cli/flags.h"
 
 namespace phongpd::cli {
 namespace {
@@ -47,12 +48,6 @@ Vector3d ParseLimit(const std::string& text, const std::string& what,
     throw InputError(which + ": expected a number above 0, found " + cell);
   }
   return limit;
-}
-
-double ParseSeconds(const std::string& text, const std::string& what) {
-  const double seconds = ParseDouble(text, what);
-  if (seconds >= 0.0) return seconds;
-  throw InputError(what + ": expected 0 or more seconds, found " + text);
 }
 
 }  // namespace
@@ -141,6 +136,7 @@ void AddMotion(CLI::App* app, const std::string& without_limits,
          "Seconds that the motion takes, with as little jerk as can be "
          "found; 0: as few as can be (" +
              without_task + ")")
+      ->transform(SecondsFromZero())
       ->type_name("S");
   const auto add_end = [&](const char* flag, const std::string& verb,
                            std::string* text) {

@@ -220,7 +220,7 @@ TEST_F(CliAnswers, ViewsAndReproductionsTellWhatTheyHold) {
 TEST_F(CliAnswers, RangesAreToldInWords) {
   const std::string depth = "depth ../box.off ../cone.off ";
   ExpectRefused(depth + "--max-seconds -1",
-                {"--max-seconds: expected a number >= 0, found -1"});
+                {"--max-seconds: expected a number >= 0 of seconds"});
   ExpectRefused("plan u_axis --max-mib nan", {"--max-mib", "found nan"});
   ExpectRefused("plan u_axis --seed -2", {"--seed: expected a number >= 0"});
   ExpectRefused(

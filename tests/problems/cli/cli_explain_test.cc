@@ -48,6 +48,7 @@ class CliExplain : public CliScenes {
 TEST_F(CliExplain, BudgetsSayWhatTheyPickedAndWhatWonOverThem) {
   const std::string plan = "plan " + Scene(TwoObstacles());
   std::vector<std::string> lines = Explain(plan + " --budget 0.1");
+  EXPECT_EQ(lines, Explain(plan + " --budget 100ms"));
   // Which flags: planners/solve/budget_test.cc.
   ExpectLine(lines, "budget: --");
   EXPECT_NE(testing::PrintToString(lines).find("(by --budget)"),

@@ -49,6 +49,25 @@ TEST_F(CliTimed, TakesTheLimitsOfTheScene) {
   EXPECT_FALSE(path.contains("pieces"));
 }
 
+TEST_F(CliTimed, TimesMayHaveTheirUnits) {
+  Scene(TwoObstacles());
+  const std::string ask =
+      "optimize ../scene.json --limits 1,2,10 --preset fast";
+  const Json row =
+      Answer(ask + " --duration 0.2min --via 0,1.2,0,0.1unit,500ms", 0);
+  EXPECT_EQ(row["duration"], 12.0);
+  EXPECT_EQ(row["via"][0]["dwell"], 0.5);
+}
+
+TEST_F(CliTimed, AsksWhetherLimitsAreInTheUnitOfTheScene) {
+  Scene(TwoObstacles());
+  const std::string slow =
+      "optimize ../scene.json --limits 0.001,2,10 --preset fast";
+  const std::string ask = "are the limits in the scene's unit";
+  EXPECT_NE(Run(slow).err.find(ask), std::string::npos);
+  EXPECT_EQ(Run(slow + " --duration 2h").err.find(ask), std::string::npos);
+}
+
 TEST_F(CliTimed, RetimesAPathOfOnesOwn) {
   Scene(TwoObstacles());
   WriteDetour();

@@ -90,6 +90,27 @@ class CliWords : public CliScenes {
   }
 };
 
+TEST_F(CliWords, EveryTimeSaysItsUnit) {
+  int times = 0;
+  for (const std::string& command : Commands()) {
+    for (const Flag& flag : Flags(Help(command))) {
+      const std::string kind =
+          flag.value.substr(0, flag.value.find_first_of(" =:"));
+      if (kind != "S" && kind != "SECONDS") continue;
+      ++times;
+      const std::string with = command + " " + flag.name + " ";
+      ExpectLine(with + "1parsec", {flag.name, "500ms", "1parsec"});
+      ExpectLine(with + "-2s", {flag.name, "500ms", "-2s"});
+      for (const std::string good :
+           {"3", "3s", "3000ms", "0.05min", "0.001 h"}) {
+        const Outcome outcome = Run(with + "'" + good + "' --no-such-flag");
+        EXPECT_EQ(outcome.err.find("500ms"), std::string::npos) << outcome.err;
+      }
+    }
+  }
+  EXPECT_GT(times, 10);
+}
+
 TEST_F(CliWords, EveryHelpHasExamplesThatAreOfItsCommandAndNoEndlessNumber) {
   const std::vector<std::string> commands = Commands();
   EXPECT_GE(commands.size(), 17U);
