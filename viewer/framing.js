@@ -44,7 +44,7 @@ class FramedStage extends Stage {
       const all = box.clone();
       for (const p of [bounds.min, bounds.max]) all.expandByPoint(this.at(p));
       const length = b => b.getSize(new THREE.Vector3()).length();
-      if (length(all) < 4 * length(box)) box.copy(all);
+      if (length(all) < 2 * length(box)) box.copy(all);
     }
     const own = this.ways.find(way => way.shape);
     const robot = new THREE.Box3().setFromBufferAttribute(

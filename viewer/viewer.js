@@ -46,7 +46,8 @@ class Viewer {
     sleepInPages(this);
     this.last = performance.now();
     const step = now => {
-      this.advance(Math.min(0.1, (now - this.last) / 1000));
+      // In real time, on slow machines too; not through what was out of sight.
+      this.advance(Math.min(0.5, (now - this.last) / 1000));
       this.last = now;
       if (this.isDirty) this.draw();
       requestAnimationFrame(step);
