@@ -153,8 +153,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
 // Of several robots each has its own task; limits that are given hold for all.
 int OptimizeRobots(const OptimizeFlags& flags, FleetScene fleet) {
   RequireTimed(flags, "several robots, found one");
-  for (const char* name :
-       {"--via", "--duration", "--departure", "--arrival", "--explain"}) {
+  for (const char* name : {"--via", "--duration", "--departure", "--arrival"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for several robots, each of which has "
@@ -169,7 +168,8 @@ int OptimizeRobots(const OptimizeFlags& flags, FleetScene fleet) {
                      "off each other in time, found none; give \"limits\" in "
                      "the scene or --limits V,A,J");
   }
-  return AnswerFleet(std::move(fleet), TimedFlagsOf(flags));
+  return AnswerFleet(std::move(fleet), TimedFlagsOf(flags),
+                     flags.explain ? flags.app : nullptr);
 }
 
 // Seed 0 is the scene as it stands.

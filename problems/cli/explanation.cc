@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/explanation.h"
 
+#include <algorithm>
+
 #include "core/mesh/counted.h"
 #include "core/number_text.h"
 #include "planners/retraction/retraction_names.h"
@@ -248,6 +250,32 @@ Lines ExplainTrajectory(const CLI::App& app, const World& world,
   if (!is_motion) lines.push_back(StagesLine(answer));
   lines.push_back(JudgeLine(answer));
   return lines;
+}
+
+Lines ExplainFleet(const CLI::App& app, const std::vector<FleetRobot>& robots,
+                   const FleetAnswer& answer) {
+  std::vector<Lines> each;
+  for (std::size_t i = 0; i < answer.robots.size(); ++i) {
+    each.push_back(ExplainTrajectory(app, robots[i].world, robots[i].request,
+                                     answer.robots[i]));
+  }
+  const auto have_all = [&](const std::string& line) {
+    return std::all_of(each.begin(), each.end(), [&](const Lines& lines) {
+      return std::find(lines.begin(), lines.end(), line) != lines.end();
+    });
+  };
+  Lines common, own;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    for (const std::string& line : each[i]) {
+      if (!have_all(line)) {
+        own.push_back(robots[i].name + ": " + line);
+      } else if (i == 0) {
+        common.push_back(line);
+      }
+    }
+  }
+  common.insert(common.end(), own.begin(), own.end());
+  return common;
 }
 
 void TellExplanation(const Lines& lines) {

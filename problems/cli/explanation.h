@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planners/solve/fleet.h"
 #include "planners/solve/optimize.h"
 #include "planners/solve/plan.h"
 
@@ -26,6 +27,12 @@ std::vector<std::string> ExplainTrajectory(const CLI::App& app,
                                            const World& world,
                                            const OptimizeRequest& request,
                                            const PathAnswer& answer);
+
+// Of several robots: what is the same of all in one line, before what is of
+// each, which begins with its name.
+std::vector<std::string> ExplainFleet(const CLI::App& app,
+                                      const std::vector<FleetRobot>& robots,
+                                      const FleetAnswer& answer);
 
 // On standard error.
 void TellExplanation(const std::vector<std::string>& lines);

@@ -8,6 +8,7 @@
 #include "core/mesh/mesh_error.h"
 #include "files/interruption.h"
 #include "problems/cli/command.h"
+#include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/motion_form.h"
 #include "problems/output/fleet_row.h"
@@ -127,7 +128,8 @@ void TellAboutRobots(const FleetScene& scene,
 
 }  // namespace
 
-int AnswerFleet(FleetScene scene, const TimedFlags& flags) {
+int AnswerFleet(FleetScene scene, const TimedFlags& flags,
+                const CLI::App* explains) {
   const double rate = RateOf(flags);
   const MotionForm form = MotionFormOf(flags);
   RequireClock(form, flags.output, "several robots");
@@ -167,6 +169,9 @@ int AnswerFleet(FleetScene scene, const TimedFlags& flags) {
   Progress("motions in time of " + std::to_string(robots.size()) + " robots");
   const FleetAnswer answer = OptimizeFleet(robots);
   ctrl_c.reset();
+  if (explains != nullptr) {
+    TellExplanation(ExplainFleet(*explains, robots, answer));
+  }
   WriteMotions(targets, scene, robots, answer, form, rate, &outputs);
   if (!flags.html.empty()) {
     View view = FleetSceneView(scene);

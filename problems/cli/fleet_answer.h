@@ -9,7 +9,9 @@ namespace phongpd::cli {
 
 // As AnswerInTime, of all robots of a scene: the output is one document, or,
 // where it is a table or lines, one file for each robot, FILE.ID.csv, all on
-// one clock.
-int AnswerFleet(FleetScene scene, const TimedFlags& flags);
+// one clock.  `explains`: the command whose flags --explain tells of; null: it
+// was not asked for.
+int AnswerFleet(FleetScene scene, const TimedFlags& flags,
+                const CLI::App* explains);
 
 }  // namespace phongpd::cli

@@ -57,6 +57,27 @@ class CliRobots : public CliScenes {
   }
 };
 
+TEST_F(CliRobots, ExplainWhatAllShareOnceAndWhatEachHasByItsName) {
+  Json swap = Swap();
+  swap["robots"][1]["limits"] = {
+      {"velocity", 2}, {"acceleration", 2}, {"jerk", 20}};
+  const Outcome outcome = Run("optimize " + Scene(swap) + " --explain");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto count = [&](const std::string& beginning) {
+    std::size_t found = 0;
+    for (const std::string& line : Split(outcome.err, '\n')) {
+      found += line.rfind("phongpd: " + beginning, 0) == 0 ? 1 : 0;
+    }
+    return found;
+  };
+  EXPECT_EQ(count("preset: fast (by the scene)"), 1U) << outcome.err;
+  EXPECT_EQ(count("world: D = "), 1U);
+  for (const std::string robot : {"left", "right"}) {
+    EXPECT_EQ(count(robot + ": limits: velocity "), 1U) << outcome.err;
+    EXPECT_EQ(count(robot + ": preset"), 0U);
+  }
+}
+
 TEST_F(CliRobots, AreAskedForTheUnitOfLimitsThatMakeThemSlow) {
   Json slow = Swap();
   slow["limits"]["velocity"] = 0.001;
