@@ -62,7 +62,8 @@ struct RigidFirstHit {
 // that is closed, consistently oriented and edge-manifold bounds the solid
 // { p : w(p) > 0 } of solid.h.  Then a mesh that lies wholly inside that solid
 // collides, too.  A mesh that is inside out is a room: its inside is free.
-// Vertices that a file repeats are not joined; MakeSolid joins them.
+// Vertices that a file repeats are not joined; MakeSolid joins them.  Of
+// triangles with the same corners only the first is looked at, and named.
 //
 // kUndecided: two triangles come closer than about 1e-7 of half the robot's
 // diagonal (or 4 times the rounding), or intersect by no more than that; they

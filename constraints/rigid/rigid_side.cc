@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "constraints/rigid/distinct_triangles.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_range.h"
 #include "core/solid/mesh_examination.h"
@@ -83,7 +84,8 @@ RigidFrame RigidFrameOf(const std::vector<TriangleMesh>& robot,
 RigidSide MakeRigidSide(const std::vector<TriangleMesh>& meshes,
                         const Vector3d& center, double scale) {
   RigidSide side;
-  std::vector<TriangleCorners> corners;
+  std::vector<RigidOrigin> origins;
+  std::vector<TriangleCorners> corners, given;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     TriangleMesh mesh = meshes[i];
     for (Vector3d& v : mesh.vertices) v = (v - center) * scale;
@@ -91,10 +93,10 @@ RigidSide MakeRigidSide(const std::vector<TriangleMesh>& meshes,
     const std::vector<int> label = LabelComponents(mesh, &count);
     std::vector<bool> has_seed(static_cast<std::size_t>(count), false);
     const std::vector<TriangleCorners> own = CornersOf(mesh);
-    const std::vector<TriangleCorners> given = CornersOf(meshes[i]);
-    side.given.insert(side.given.end(), given.begin(), given.end());
+    const std::vector<TriangleCorners> unmoved = CornersOf(meshes[i]);
+    given.insert(given.end(), unmoved.begin(), unmoved.end());
     for (std::size_t k = 0; k < own.size(); ++k) {
-      side.origins.push_back({static_cast<int>(i), static_cast<int>(k)});
+      origins.push_back({static_cast<int>(i), static_cast<int>(k)});
       const auto component = static_cast<std::size_t>(label[k]);
       if (!has_seed[component]) side.seeds.push_back(own[k][0]);
       has_seed[component] = true;
@@ -102,7 +104,14 @@ RigidSide MakeRigidSide(const std::vector<TriangleMesh>& meshes,
     corners.insert(corners.end(), own.begin(), own.end());
     if (IsClosedSurface(meshes[i])) side.solids.emplace_back(mesh);
   }
-  side.tree = MakeRigidTree(std::move(corners));
+  // Faces that are stored twice meet what they meet once.
+  std::vector<TriangleCorners> kept;
+  for (const std::size_t k : DistinctTriangles(given)) {
+    side.origins.push_back(origins[k]);
+    side.given.push_back(given[k]);
+    kept.push_back(corners[k]);
+  }
+  side.tree = MakeRigidTree(std::move(kept));
   return side;
 }
 

@@ -18,7 +18,8 @@ struct RigidOrigin {
   int mesh = -1, triangle = -1;
 };
 
-// All triangles of one side, in the frame, and what can hold or be held.
+// All triangles of one side, in the frame, and what can hold or be held.  Of
+// triangles that are the same set of points the tree has the first.
 struct RigidSide {
   RigidTree tree;
   std::vector<RigidOrigin> origins;    // by the number in the tree

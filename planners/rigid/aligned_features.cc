@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "constraints/rigid/distinct_triangles.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -30,25 +32,42 @@ Vector3d UnitNormalOf(const TriangleMesh& mesh, const Triangle& t) {
   return normal.normalized();
 }
 
+// A face at an edge, and which way it goes from there.
+struct EdgeFace {
+  Vector3d normal, inward;
+};
+
+// One plane goes on beyond the edge, whichever sides the faces show.
+bool AreFlat(const std::vector<EdgeFace>& at) {
+  return at.size() == 2 &&
+         at[0].normal.cross(at[1].normal).norm() < kFlatSine &&
+         at[0].inward.dot(at[1].inward) < 0.0;
+}
+
 void AddFeatures(const TriangleMesh& mesh, std::vector<EdgeFeature>* features) {
-  std::map<std::pair<int, int>, std::vector<Vector3d>> normals;
-  for (const Triangle& t : mesh.triangles) {
+  std::map<std::pair<int, int>, std::vector<EdgeFace>> faces;
+  for (const std::size_t i : DistinctTriangles(CornersOf(mesh))) {
+    const Triangle& t = mesh.triangles[i];
     const Vector3d normal = UnitNormalOf(mesh, t);
     if (normal.isZero()) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      normals[std::minmax(t[k], t[(k + 1) % 3])].push_back(normal);
+      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+      const Vector3d& from = mesh.vertices[static_cast<std::size_t>(low)];
+      const Vector3d along =
+          (mesh.vertices[static_cast<std::size_t>(high)] - from).normalized();
+      const Vector3d inward =
+          mesh.vertices[static_cast<std::size_t>(t[(k + 2) % 3])] - from;
+      faces[{low, high}].push_back(
+          {normal, inward - inward.dot(along) * along});
     }
   }
-  for (const auto& [edge, at] : normals) {
-    if (at.size() == 2 && at[0].cross(at[1]).norm() < kFlatSine &&
-        at[0].dot(at[1]) > 0.0) {
-      continue;
-    }
+  for (const auto& [edge, at] : faces) {
+    if (AreFlat(at)) continue;
     const Vector3d& a = mesh.vertices[static_cast<std::size_t>(edge.first)];
     const Vector3d& b = mesh.vertices[static_cast<std::size_t>(edge.second)];
     const Vector3d along = (b - a).normalized();
-    for (const Vector3d& normal : at) {
-      const Vector3d across = normal - normal.dot(along) * along;
+    for (const EdgeFace& face : at) {
+      const Vector3d across = face.normal - face.normal.dot(along) * along;
       features->push_back({a, b, along, across.normalized()});
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "constraints/rigid/distinct_triangles.h"
 #include "core/bvh/box_tree_pairs.h"
 #include "core/bvh/segment_triangle_distance.h"
 
@@ -18,14 +19,16 @@ using Eigen::Vector3d;
 // Of triangles, a few milliseconds.
 constexpr long kPairsBetweenAsks = 4096;
 
-std::vector<TriangleCorners> AllCorners(
+std::vector<TriangleCorners> DistinctCorners(
     const std::vector<TriangleMesh>& meshes) {
   std::vector<TriangleCorners> all;
   for (const TriangleMesh& mesh : meshes) {
     const std::vector<TriangleCorners> corners = CornersOf(mesh);
     all.insert(all.end(), corners.begin(), corners.end());
   }
-  return all;
+  std::vector<TriangleCorners> distinct;
+  for (const std::size_t k : DistinctTriangles(all)) distinct.push_back(all[k]);
+  return distinct;
 }
 
 struct ClosestPoints {
@@ -94,7 +97,7 @@ class BoxGap {
 }  // namespace
 
 ContactSurface::ContactSurface(const std::vector<TriangleMesh>& meshes)
-    : corners(AllCorners(meshes)), tree(SortIntoTree(&corners)) {}
+    : corners(DistinctCorners(meshes)), tree(SortIntoTree(&corners)) {}
 
 bool ForEachClosePair(const ContactSurface& robot,
                       const ContactSurface& obstacle, const RobotPose& pose,

@@ -14,7 +14,8 @@
 // Where a robot at a pose is close to obstacles.
 namespace phongpd::internal {
 
-// All triangles of one side, in its own frame.
+// All triangles of one side, in its own frame, each once though it be stored
+// twice.
 struct ContactSurface {
   // Finite meshes, one triangle at least.
   explicit ContactSurface(const std::vector<TriangleMesh>& meshes);
