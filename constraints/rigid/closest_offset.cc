@@ -32,7 +32,7 @@ EdgeVectors EdgeVectorsOf(const TriangleCorners& t) {
 // From q + [0, 1] e to p + [0, 1] d, and whether the points are inside of the
 // two; any vector would be a direction.
 struct OnSegments {
-  Vector3d offset;
+  Vector3d offset, on_first;
   bool is_inside_first, is_inside_second;
 };
 
@@ -54,7 +54,8 @@ OnSegments BetweenSegments(const Vector3d& p, const Vector3d& d,
     t = 1.0;
     s = a > 0.0 ? std::clamp((b - along_d) / a, 0.0, 1.0) : 0.0;
   }
-  return {r + s * d - t * e, s > 0.0 && s<1.0, t> 0.0 && t < 1.0};
+  const Vector3d along = s * d;
+  return {r + along - t * e, p + along, s > 0.0 && s<1.0, t> 0.0 && t < 1.0};
 }
 
 class Closest {
@@ -65,6 +66,7 @@ class Closest {
       for (std::size_t j = 0; j < 3; ++j) {
         const OnSegments on = BetweenSegments(a_[i], e_[i], b_[j], f_[j]);
         if (!IsCloser(on.offset)) continue;
+        on_first_ = on.on_first;
         first_ = on.is_inside_first ? &e_[i] : nullptr;
         second_ = on.is_inside_second ? &f_[j] : nullptr;
       }
@@ -74,6 +76,7 @@ class Closest {
   }
 
   const Vector3d& offset() const { return offset_; }
+  const Vector3d& on_first() const { return on_first_; }
 
   // Along the normal of the face, or across the edges that it is inside of.
   Vector3d Direction() const {
@@ -104,7 +107,9 @@ class Closest {
       }
       if (!is_over) continue;
       const double along = sign * n.dot(p - face[0]);
-      if (!IsCloser(n * (along / squared))) continue;
+      const Vector3d offset = n * (along / squared);
+      if (!IsCloser(offset)) continue;
+      on_first_ = sign < 0.0 ? Vector3d(p + offset) : p;
       is_face_ = true;
       normal_ = along < 0.0 ? Vector3d(-n) : n;
     }
@@ -121,7 +126,7 @@ class Closest {
   const TriangleCorners &a_, &b_;
   const EdgeVectors e_, f_;
   double best_ = kInfinity;
-  Vector3d offset_ = Vector3d::Zero();
+  Vector3d offset_ = Vector3d::Zero(), on_first_ = Vector3d::Zero();
   bool is_face_ = false;
   Vector3d normal_ = Vector3d::Zero();
   const Vector3d *first_ = nullptr, *second_ = nullptr;  // edges
@@ -140,7 +145,7 @@ Vector3d UnitOf(const Vector3d& v) {
 ClosestOffset FindClosestOffset(const TriangleCorners& a,
                                 const TriangleCorners& b) {
   const Closest closest(a, b);
-  return {closest.offset(), UnitOf(closest.Direction())};
+  return {closest.offset(), UnitOf(closest.Direction()), closest.on_first()};
 }
 
 }  // namespace phongpd::internal

@@ -17,6 +17,7 @@ struct ClosestOffset {
   // or what is across an edge or two.  Close to contact it parts triangles
   // better than the offset, of which rounding leaves little.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_first = Eigen::Vector3d::Zero();  // the point of a
 };
 
 ClosestOffset FindClosestOffset(const TriangleCorners& a,

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "constraints/rigid/closest_offset.h"
 #include "constraints/rigid/distinct_triangles.h"
 #include "core/bvh/box_tree_pairs.h"
-#include "core/bvh/segment_triangle_distance.h"
 
 namespace phongpd::internal {
 namespace {
@@ -31,42 +31,54 @@ std::vector<TriangleCorners> DistinctCorners(
   return distinct;
 }
 
-struct ClosestPoints {
-  Vector3d on_robot = Vector3d::Zero(), on_obstacle = Vector3d::Zero();
-  double squared_distance = std::numeric_limits<double>::infinity();
+// Where the corners of a triangle are from the plane of a face: how high the
+// lowest and the highest, times the length of the face's normal.
+struct PlaneHeights {
+  PlaneHeights(const TriangleCorners& face, const TriangleCorners& other) {
+    const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);
+    squared_normal = normal.squaredNorm();
+    for (const Vector3d& p : other) {
+      const double height = normal.dot(p - face[0]);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+
+  // All on one side, and more than the radius off.
+  bool AreBeyond(double radius) const {
+    const double height = std::max(low, -high);
+    return height > 0.0 && height * height > radius * radius * squared_normal;
+  }
+  bool AreOnBothSides() const { return low < 0.0 && high > 0.0; }
+
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double squared_normal = 0.0;
 };
 
-// Of two triangles: an edge of one of them has one of the points.
-ClosestPoints ClosestOf(const TriangleCorners& a, const TriangleCorners& b) {
-  ClosestPoints best;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const SegmentTrianglePair mine = ClosestPair(a[i], a[j], b[0], b[1], b[2]);
-    if (mine.squared_distance < best.squared_distance) {
-      best = {mine.on_segment, mine.on_triangle, mine.squared_distance};
-    }
-    const SegmentTrianglePair its = ClosestPair(b[i], b[j], a[0], a[1], a[2]);
-    if (its.squared_distance < best.squared_distance) {
-      best = {its.on_triangle, its.on_segment, its.squared_distance};
-    }
-  }
-  return best;
+// Six times the volume.
+double Volume(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+              const Vector3d& d) {
+  return (b - a).cross(c - a).dot(d - a);
 }
 
-// Are all corners of one more than the radius off the plane of the other, on
-// one side?
-bool IsBeyondPlane(const TriangleCorners& face, const TriangleCorners& other,
-                   double radius) {
-  const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vector3d& p : other) {
-    const double height = normal.dot(p - face[0]);
-    low = std::min(low, height);
-    high = std::max(high, height);
+bool RunsThrough(const Vector3d& p, const Vector3d& q,
+                 const TriangleCorners& t) {
+  if (!(Volume(t[0], t[1], t[2], p) * Volume(t[0], t[1], t[2], q) < 0.0)) {
+    return false;
   }
-  const double height = std::max(low, -high);
-  return height > 0.0 &&
-         height * height > radius * radius * normal.squaredNorm();
+  const auto [low, high] =
+      std::minmax({Volume(p, q, t[0], t[1]), Volume(p, q, t[1], t[2]),
+                   Volume(p, q, t[2], t[0])});
+  return !(low < 0.0 && high > 0.0);
+}
+
+// To rounding.
+bool DoMeet(const TriangleCorners& a, const TriangleCorners& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (RunsThrough(a[i], a[j], b) || RunsThrough(b[i], b[j], a)) return true;
+  }
+  return false;
 }
 
 // The largest gap between two boxes along their axes, < 0 where none parts
@@ -94,15 +106,15 @@ class BoxGap {
   const Vector3d position_;
 };
 
-}  // namespace
+bool IsNearer(const PoseContact& a, const PoseContact& b) {
+  return a.gap < b.gap;
+}
 
-ContactSurface::ContactSurface(const std::vector<TriangleMesh>& meshes)
-    : corners(DistinctCorners(meshes)), tree(SortIntoTree(&corners)) {}
-
-bool ForEachClosePair(const ContactSurface& robot,
-                      const ContactSurface& obstacle, const RobotPose& pose,
-                      double radius, const VisitTriangles& visit, long* tests,
-                      RigidStop* stop) {
+// ForEachClosePair; the visits may make the radius smaller.
+template <typename Visit>
+bool WalkClosePairs(const ContactSurface& robot, const ContactSurface& obstacle,
+                    const RobotPose& pose, const double& radius,
+                    const Visit& visit, long* tests, RigidStop* stop) {
   const Matrix3d rotation = pose.orientation.toRotationMatrix();
   const BoxGap gap(rotation, pose.position);
   const auto keep = [&](int i, int j) {
@@ -122,8 +134,8 @@ bool ForEachClosePair(const ContactSurface& robot,
     TriangleCorners placed = robot.corners[a];
     for (Vector3d& p : placed) p = rotation * p + pose.position;
     const TriangleCorners& fixed = obstacle.corners[b];
-    if (!IsBeyondPlane(fixed, placed, radius) &&
-        !IsBeyondPlane(placed, fixed, radius)) {
+    if (!PlaneHeights(fixed, placed).AreBeyond(radius) &&
+        !PlaneHeights(placed, fixed).AreBeyond(radius)) {
       visit(a, b, placed);
     }
     return true;
@@ -132,20 +144,46 @@ bool ForEachClosePair(const ContactSurface& robot,
   return !is_stopped;
 }
 
+}  // namespace
+
+ContactSurface::ContactSurface(const std::vector<TriangleMesh>& meshes)
+    : corners(DistinctCorners(meshes)), tree(SortIntoTree(&corners)) {}
+
+bool ForEachClosePair(const ContactSurface& robot,
+                      const ContactSurface& obstacle, const RobotPose& pose,
+                      double radius, const VisitTriangles& visit, long* tests,
+                      RigidStop* stop) {
+  return WalkClosePairs(robot, obstacle, pose, radius, visit, tests, stop);
+}
+
 void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,
                   const RobotPose& pose, double radius,
-                  std::vector<PoseContact>* contacts, long* tests) {
+                  std::vector<PoseContact>* contacts, long* tests,
+                  std::size_t most) {
   contacts->clear();
+  const auto keep_nearest = [&] {
+    if (contacts->size() <= most) return;
+    const auto last = contacts->begin() + static_cast<std::ptrdiff_t>(most) - 1;
+    std::nth_element(contacts->begin(), last, contacts->end(), IsNearer);
+    contacts->resize(most);
+    radius = contacts->back().gap;
+  };
   const auto visit = [&](std::size_t, std::size_t j,
                          const TriangleCorners& placed) {
-    const ClosestPoints closest = ClosestOf(placed, obstacle.corners[j]);
-    const double distance = std::sqrt(closest.squared_distance);
-    if (distance > 0.0 && distance <= radius) {
-      contacts->push_back({(closest.on_robot - closest.on_obstacle) / distance,
-                           closest.on_robot - pose.position, distance});
+    const TriangleCorners& fixed = obstacle.corners[j];
+    if (PlaneHeights(fixed, placed).AreOnBothSides() &&
+        PlaneHeights(placed, fixed).AreOnBothSides() && DoMeet(placed, fixed)) {
+      return;
     }
+    const ClosestOffset closest = FindClosestOffset(placed, fixed);
+    const double gap = closest.offset.norm();
+    if (!(gap <= radius) || closest.direction.isZero()) return;
+    contacts->push_back(
+        {closest.direction, closest.on_first - pose.position, gap});
+    if (contacts->size() / 2 >= most) keep_nearest();
   };
-  ForEachClosePair(robot, obstacle, pose, radius, visit, tests);
+  WalkClosePairs(robot, obstacle, pose, radius, visit, tests, nullptr);
+  keep_nearest();
 }
 
 }  // namespace phongpd::internal

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "core/bvh/box_tree.h"
@@ -46,10 +48,12 @@ struct PoseContact {
 };
 
 // All pairs of triangles with a gap ≤ radius, in the order of the trees; such
-// as meet have no direction and are left out.  Clears `contacts` first; adds
-// the pairs of boxes and triangles looked at to *tests.
+// as meet have no direction and are left out.  If these are more than `most`,
+// which is 1 at least, the nearest so many, in any order.  Clears `contacts`
+// first; adds the pairs of boxes and triangles looked at to *tests.
 void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,
                   const RobotPose& pose, double radius,
-                  std::vector<PoseContact>* contacts, long* tests);
+                  std::vector<PoseContact>* contacts, long* tests,
+                  std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace phongpd::internal

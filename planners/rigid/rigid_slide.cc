@@ -163,13 +163,9 @@ void RigidSlide::MakeRows(const Matrix6& factor, double length,
                           const RobotPose& pose) {
   long tests = 0;
   FindContacts(model_.robot_surface, model_.obstacle_surface, pose,
-               kContactRange * length + 2.0 * skin_, &contacts_, &tests);
+               kContactRange * length + 2.0 * skin_, &contacts_, &tests,
+               kMaxContacts);
   links_->AddTests(tests);
-  if (contacts_.size() > kMaxContacts) {
-    const auto end = contacts_.begin() + kMaxContacts;
-    std::nth_element(contacts_.begin(), end, contacts_.end(), IsNearer);
-    contacts_.resize(kMaxContacts);
-  }
   std::sort(contacts_.begin(), contacts_.end(), IsNearer);
   rows_ = 0;
   for (const PoseContact& contact : contacts_) {
