@@ -37,9 +37,9 @@ struct Runner {
   long head_start;  // in tests
 };
 constexpr Runner kRunners[] = {
-    {TreeGrowth::kStraight, "straight", 0.3, 2'000'000},
+    {TreeGrowth::kStraight, "straight", 0.2, 2'000'000},
     {TreeGrowth::kSlide, "slide", 0.35, 0},
-    {TreeGrowth::kTow, "tow", 0.35, 0}};
+    {TreeGrowth::kTow, "tow", 0.45, 0}};
 constexpr std::size_t kRunnerCount = std::size(kRunners);
 // Who found a path at once waits no longer for its shortening than for it; a
 // few milliseconds at least, which leave little to be cut where there is room.

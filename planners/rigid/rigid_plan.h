@@ -76,13 +76,14 @@ struct RigidAnswer {
 //
 // The motion straight to the goal is tried first ("line").  If it collides,
 // three planners with two random trees each, one from the start and one from
-// the goal, take turns, so that each does about the same work:
+// the goal, take turns, so that straight does a fifth of the work, slide a
+// third and tow the rest:
 //   straight  adds straight motions as far as they are free; best in worlds
 //             with much room; it has a head start of about half a second
 //   slide     slides along contacts (rigid_slide.h) towards random poses, and
 //             towards poses in which edges or faces of the robot are parallel
 //             to those of the obstacles
-//   tow       like slide, but half of its slides pull only one corner of the
+//   tow       like slide, but a third of its slides pull only one corner of the
 //             robot to a place, and let the robot turn as it must
 // The first path found is shortened, by no more work than finding it took, but
 // for some milliseconds, and each of its motions is judged again.

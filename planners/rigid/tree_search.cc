@@ -17,6 +17,10 @@ using Eigen::Vector3d;
 constexpr double kRange = 0.2;
 // Shares of what slides and tows draw; the rest is anywhere.
 constexpr double kAlignedShare = 0.3, kLocalShare = 0.3;
+// Of what tows draw, what they tow to; they slide to the rest.  Tows lead out
+// of where slides end, but get less far: by halves they took twice as much work
+// to part two bent tubes.
+constexpr double kTowShare = 0.3;
 // Of aligned poses those at the place of the features.  From there it goes on
 // along the edge, by so many reaches: holes are gone through along theirs.
 constexpr double kPlacedShare = 0.5, kAhead = 3.0;
@@ -159,7 +163,7 @@ TreeSearch::Aim TreeSearch::Draw(int side) {
   } else {
     aim.pose = AnyPose();
   }
-  aim.is_tow = growth_ == TreeGrowth::kTow && Uniform() < 0.5;
+  aim.is_tow = growth_ == TreeGrowth::kTow && Uniform() < kTowShare;
   return aim;
 }
 
