@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/world/penetration_spec.h"
 #include "problems/output/text.h"
 
 namespace phongpd::cli {
@@ -72,6 +73,16 @@ class Row {
   std::string where_;
 };
 
+// As the page of the motion itself calls it; of "phong" alone no table says ℓ.
+std::string TitleOf(const std::string& metric) {
+  if (metric == "euclidean") return "Euclidean PD";
+  if (metric == "sliding") return "sliding contact";
+  if (metric == "phong") return "PhongPD";
+  return metric.rfind("phong@", 0) == 0
+             ? ParsePenetration(metric, "metric").Title()
+             : metric;
+}
+
 // Calls visit(row) for all rows.
 template <typename Visit>
 void ForEachRow(std::string_view content, const std::string& file,
@@ -132,6 +143,7 @@ std::vector<ViewTrace> ParseTraces(std::string_view content,
                      traces.front().name + " and " +
                      std::to_string(trace.pd.size()) + " of " + trace.name);
   }
+  for (ViewTrace& trace : traces) trace.name = TitleOf(trace.name);
   return traces;
 }
 

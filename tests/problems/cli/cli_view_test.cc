@@ -245,7 +245,7 @@ TEST_F(CliView, TakesMotionsWithWhatTheTableDoesNotHold) {
       "--to 3 0 0");
   EXPECT_EQ(data["motion"]["positions"], page["motion"]["positions"]);
   ASSERT_EQ(Names(data["motion"]["traces"]),
-            Strings({"euclidean", "phong", "sliding"}));
+            Strings({"Euclidean PD", "PhongPD", "sliding contact"}));
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(data["motion"]["traces"][k]["pd"],
               page["motion"]["traces"][k]["pd"]);
