@@ -106,10 +106,6 @@ class BoxGap {
   const Vector3d position_;
 };
 
-bool IsNearer(const PoseContact& a, const PoseContact& b) {
-  return a.gap < b.gap;
-}
-
 // ForEachClosePair; the visits may make the radius smaller.
 template <typename Visit>
 bool WalkClosePairs(const ContactSurface& robot, const ContactSurface& obstacle,

@@ -47,6 +47,10 @@ struct PoseContact {
   double gap = 0.0;        // > 0, to rounding
 };
 
+inline bool IsNearer(const PoseContact& a, const PoseContact& b) {
+  return a.gap < b.gap;
+}
+
 // All pairs of triangles with a gap ≤ radius, in the order of the trees; such
 // as meet have no direction and are left out.  If these are more than `most`,
 // which is 1 at least, the nearest so many, in any order.  Clears `contacts`

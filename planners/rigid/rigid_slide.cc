@@ -32,10 +32,6 @@ constexpr double kSameRow = 1e-4;  // squared difference
 constexpr int kMaxSweeps = 100;
 constexpr double kSettled = 1e-9;
 
-bool IsNearer(const PoseContact& a, const PoseContact& b) {
-  return a.gap < b.gap;
-}
-
 }  // namespace
 
 RigidSlide::RigidSlide(const RigidModel& model, RigidLinks* links)
