@@ -4,6 +4,13 @@
 #include <algorithm>
 
 namespace phongpd {
+namespace {
+
+constexpr ApproximationKind kKinds[] = {
+    ApproximationKind::kAlphaWrap, ApproximationKind::kRobotHull,
+    ApproximationKind::kDecimation, ApproximationKind::kOuterShell};
+
+}  // namespace
 
 const char* ApproximationName(ApproximationKind kind) {
   switch (kind) {
@@ -19,11 +26,16 @@ const char* ApproximationName(ApproximationKind kind) {
   return "outer-shell";
 }
 
+std::optional<ApproximationKind> FindApproximation(const std::string& name) {
+  for (const ApproximationKind kind : kKinds) {
+    if (name == ApproximationName(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
 std::string KindsOf(const Approximation& approximation) {
   std::string joined;
-  for (const ApproximationKind kind :
-       {ApproximationKind::kAlphaWrap, ApproximationKind::kRobotHull,
-        ApproximationKind::kDecimation, ApproximationKind::kOuterShell}) {
+  for (const ApproximationKind kind : kKinds) {
     const bool is_used = std::any_of(
         approximation.steps.begin(), approximation.steps.end(),
         [kind](const ApproximationStep& s) { return s.kind == kind; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ enum class ApproximationKind {
 
 // "alpha-wrap", "robot-hull", "decimation", "outer-shell"; never null.
 const char* ApproximationName(ApproximationKind kind);
+// The kind of that name, if there is one.
+std::optional<ApproximationKind> FindApproximation(const std::string& name);
 
 // One deviation from the exact contact space that was asked for.
 struct ApproximationStep {

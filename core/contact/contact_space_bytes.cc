@@ -15,6 +15,9 @@ namespace {
 // which kBuilderDigest tells.
 constexpr std::uint32_t kCacheFormat = 1;
 
+// What a kind is whose name nobody knows: IsValid refuses it.
+constexpr auto kNoApproximation = static_cast<ApproximationKind>(-1);
+
 }  // namespace
 
 // Beside the structs, where the streams find them.
@@ -60,18 +63,26 @@ void Fields(Stream* io, RepairReport& report) {
         wrap_reason, wrap_alpha, wrap_bound, actions);
 }
 
+// Kinds are their names in the bytes, as files have them since the first
+// version.
 template <typename Stream>
 void Fields(Stream* io, ApproximationStep& step) {
   auto& [operand, kind, bound, lower_bound, is_surface_bound, is_conservative,
          before, after, dropped_cavities] = step;
-  (*io)(operand, kind, bound, lower_bound, is_surface_bound, is_conservative,
+  std::string name = ApproximationName(kind);
+  (*io)(operand, name, bound, lower_bound, is_surface_bound, is_conservative,
         before, after, dropped_cavities);
+  // Read; a writer's step is const.
+  if (name != ApproximationName(kind)) {
+    kind = FindApproximation(name).value_or(kNoApproximation);
+  }
 }
 
 template <typename Stream>
 void Fields(Stream* io, Approximation& approximation) {
   auto& [bound, is_conservative, steps] = approximation;
-  (*io)(bound, is_conservative, steps);
+  std::string kinds = KindsOf(approximation);  // of the steps, read anyhow
+  (*io)(kinds, bound, is_conservative, steps);
 }
 
 template <typename Stream>
@@ -136,10 +147,7 @@ bool IsValid(const ContactSpace::Parts& space) {
     }
   }
   for (const ApproximationStep& step : space.report.approximation.steps) {
-    if (step.kind < ApproximationKind::kAlphaWrap ||
-        step.kind > ApproximationKind::kOuterShell) {
-      return false;
-    }
+    if (step.kind == kNoApproximation) return false;
   }
   return true;
 }

@@ -188,6 +188,28 @@ TEST_F(ContactSpaceFile, ForgedContentsAreChecked) {
                    "closed, edge-manifold"));
 }
 
+// As the first version wrote them: names, and no file of another one.
+TEST_F(ContactSpaceFile, HoldsKindsOfApproximationsByTheirNames) {
+  ContactSpaceOptions options;
+  options.robot_hull = true;
+  const std::string bytes = ContactSpaceContent(
+      BuildContactSpace(MakeL(1, 0.3, 0.3), MakeL(3, 1, 1), options));
+  EXPECT_EQ(KindsOf(ParseContactSpace(bytes, "C.pcs").report().approximation),
+            "robot-hull");
+  const std::string name = "robot-hull";
+  std::size_t count = 0;
+  for (std::size_t at = bytes.find(name); at != std::string::npos;
+       at = bytes.find(name, at + 1)) {
+    ++count;
+  }
+  EXPECT_EQ(count, 2U);  // of the step, and of all of them
+  EXPECT_NE(Refusal(Resealed(bytes, kHeader,
+                             [&](std::string* content) {
+                               (*content)[content->rfind(name)] = 'R';
+                             })),
+            "");
+}
+
 // A file that this test did not write: a cube of side 2 and one of side 0.5.
 // When it is refused, the bytes have changed and need another version.
 TEST_F(ContactSpaceFile, OfTheFirstVersionIsRead) {
