@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|fleets|rigid|rigid-optimize|wrench|study|
+# extremes|peers|trajectories|fleets|rigid|rigid-optimize|rigid-ompl-app|wrench|study|
 # study-models|study-solvers|study-times|cluster|python|trade|slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
-# them (results/reproduction.md); it is no part of all.
+# them (results/reproduction.md); it is no part of all, nor is rigid-ompl-app FOLDER, for
+# it takes a checkout of OMPL.app, FOLDER its resources/3D.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -15,13 +16,13 @@ suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
     extremes | peers | trajectories | fleets | rigid | rigid-optimize | \
-    wrench | study | study-models | study-solvers | study-times | cluster | \
+    rigid-ompl-app | wrench | study | study-models | study-solvers | study-times | cluster | \
     python | trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
-      "rigid, rigid-optimize, wrench, study, study-models, study-solvers," \
-      "study-times, cluster, python, trade," \
+      "rigid, rigid-optimize, rigid-ompl-app, wrench, study, study-models," \
+      "study-solvers, study-times, cluster, python, trade," \
       "continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
@@ -305,6 +306,12 @@ if [[ $suite == rigid || $suite == all ]]; then
   python3 -B results/bench/rigid_benchmark.py --output results/rigid \
     --rows "$rows" --how "scripts/bench.sh rigid${2:+ ${*:2}}" \
     --commit "$(git rev-parse --short HEAD)" "${@:2}"
+fi
+if [[ $suite == rigid-ompl-app ]]; then
+  scripts/build.sh phongpd
+  python3 -B results/bench/rigid_ompl_app.py "${2:?expected the folder resources/3D}" \
+    --output results/rigid --rows "build/rigid-ompl-app/$(git rev-parse HEAD)" \
+    --commit "$(git rev-parse --short HEAD)"
 fi
 if [[ $suite == rigid-optimize || $suite == all ]]; then
   scripts/build.sh rigid_optimize_benchmark

@@ -28,7 +28,8 @@ NOTES = """\
 ## What is measured
 
 - Scenes: made by `problems/scenes/rigid_scenes.h`, closed solids with exact
-  clearances; `peg:0.1` is the family and its knob.
+  clearances; `peg:0.1` is the family and its knob. OMPL.app's own problems:
+  [ompl_app.md](ompl_app.md).
 - Motions, both ends proved free: random between uniform poses; contact between
   poses just before a contact; grazing in pairs, one free and one colliding, whose
   ends are 1e-6 of the way apart.

@@ -15,8 +15,10 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "results" / "bench"))
 
 import rigid_benchmark  # noqa: E402
+import rigid_ompl_app as app  # noqa: E402
 import rigid_peers_report as others  # noqa: E402
 import rigid_report  # noqa: E402
+from python_report import read_dicts  # noqa: E402
 
 
 def run(seed, solved, seconds, wrong=0, check="proof"):
@@ -38,6 +40,31 @@ def peer(method, ms, misses=0):
     return {"scene": "s", "kind": "contact", "method": method, "motions": 50,
             "free": 20, "colliding": 30, "ms": ms, "undecided": 0, "misses": misses,
             "contradictions": 2}
+
+
+def of_the_app(seed, status, seconds, certified="yes"):
+    return {"problem": "alpha", "seed": str(seed), "status": status,
+            "certified": certified, "seconds": str(seconds)}
+
+
+class OmplApp(unittest.TestCase):
+    def test_runs_without_a_proved_path_are_not_solved(self):
+        found = [of_the_app(1, "solved", 2.0), of_the_app(2, "solved", 4.0),
+                 of_the_app(3, "time_limit", 60.0, "no"),
+                 of_the_app(4, "failed", 9.0, "no"),
+                 of_the_app(5, "time_limit", 60.0, "no")]
+        # Wilson's 95 % interval of 2 of 5: 0.1176 to 0.7693.
+        self.assertEqual(list(app.lines(found))[2],
+                         "| alpha | 5 | 2 (12 – 77 %) | 3 | 4 | failed, time_limit |")
+
+    def test_the_page_is_that_of_the_rows(self):
+        folder = SOURCE / "results" / "rigid"
+        text = (folder / "ompl_app.md").read_text(encoding="utf-8")
+        how = text.rstrip("\n").split("\n\n")[-1]
+        found = read_dicts(folder / "ompl_app.csv")
+        self.assertEqual(text, app.page(found, how))
+        self.assertEqual(len({(r["problem"], r["seed"]) for r in found}),
+                         len(found))
 
 
 class Tables(unittest.TestCase):
