@@ -93,9 +93,7 @@ of it counted: reading, planning, shortening and the proof.
 {table}
 
 - No path is wrong: each is proved motion by motion before it is an answer.
-- escape is refused, `goal_in_collision`: the goal that its file names touches the tube by
-  about 0.03, by FCL on the triangles as OMPL.app reads them, too. With the file's turn
-  by π about x left out, or with its z of the other sign, the goal is free.
+- escape is refused, `goal_in_collision`: the goal that its file names touches the tube.
 - Beside OMPL: on twins of ours, which are here: [planners](README.md#planners).
 
 Rows: [ompl_app.csv](ompl_app.csv)
@@ -127,7 +125,7 @@ def main():
         rows.deadline_of(arguments), "runs")
     write(arguments.output, rows.read(arguments.rows / "ompl_app.jsonl"),
           "Command: `scripts/bench.sh rigid-ompl-app CHECKOUT/resources/3D`. Commit: "
-          f"{arguments.commit}. Machine: {machine()}, with other work to do.")
+          f"{arguments.commit}. Machine: {machine()}, shared.")
 
 
 if __name__ == "__main__":

@@ -145,7 +145,7 @@ def main():
         read_dicts(arguments.folder / "times.csv"),
         f"Command: `scripts/bench.sh study-times`. Commit: {arguments.commit}. "
         f"Seeds: {arguments.seed} and the {max(arguments.problems) - 1} after it. "
-        f"Machine: {machine()}, with other work to do. Versions: PhongPD "
+        f"Machine: {machine()}, shared. Versions: PhongPD "
         f"{phongpd.__version__}, {versions('numpy')}."))
 
 
