@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <memory>
+#include <random>
+#include <string>
+#include <utility>
 
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
@@ -12,6 +14,7 @@
 #include "planners/rigid/object_norm.h"
 #include "planners/rigid/rigid_ends.h"
 #include "planners/rigid/rigid_model.h"
+#include "planners/rigid/rigid_race.h"
 #include "planners/rigid/rigid_shortening.h"
 #include "planners/rigid/tree_search.h"
 
@@ -21,39 +24,23 @@ namespace {
 using internal::RigidLinks;
 using internal::RigidModel;
 using internal::RigidStop;
-using internal::TreeGrowth;
-using internal::TreeSearch;
 using internal::TreeTask;
 
 constexpr double kMaxTimeLimit = 1e9;
-
-// Who takes part, and the share of the work that each does, beyond what it may
-// do before the others begin: worlds with much room are solved by straight
-// motions in about half a second, so that is what others lose elsewhere.
-struct Runner {
-  TreeGrowth growth;
-  const char* name;
-  double share;
-  long head_start;  // in tests
-};
-constexpr Runner kRunners[] = {
-    {TreeGrowth::kStraight, "straight", 0.2, 2'000'000},
-    {TreeGrowth::kSlide, "slide", 0.35, 0},
-    {TreeGrowth::kTow, "tow", 0.45, 0}};
-constexpr std::size_t kRunnerCount = std::size(kRunners);
+constexpr int kMostThreads = 64;
 // Who found a path at once waits no longer for its shortening than for it; a
 // few milliseconds at least, which leave little to be cut where there is room.
 constexpr long kLeastShorteningTests = 20'000;
 
-// Of all threads of the process: ours is one.
+// Of all threads of the process, ours among them.
 double ProcessorSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-class Portfolio {
+class RigidPlanner {
  public:
-  Portfolio(const RigidModel& model, const RigidRequest& request,
-            const TreeTask& task)
+  RigidPlanner(const RigidModel& model, const RigidRequest& request,
+               const TreeTask& task)
       : model_(model),
         request_(request),
         task_(task),
@@ -62,18 +49,26 @@ class Portfolio {
 
   void Run(RigidAnswer* answer) {
     const double begin = ProcessorSeconds();
+    std::uint64_t seed = request_.seed;
     if (links_.IsFree(task_.start, task_.goal)) {
       answer->path = {task_.start, task_.goal};
       answer->planner = "line";
     } else {
-      Race(answer);
+      internal::RaceEnd race = internal::RacePortfolios(
+          model_, task_, request_.seed, request_.threads, &stop_);
+      answer->path = std::move(race.path);
+      answer->planner = race.planner;
+      answer->checks += race.checks;
+      answer->tests += race.tests;
+      answer->nodes += race.nodes;
+      seed = race.seed;
     }
     answer->search_seconds = stop_.Seconds();
     answer->search_cpu_seconds = ProcessorSeconds() - begin;
     answer->search_tests = answer->tests + links_.tests();
     answer->found_poses = answer->path.size();
     if (request_.shortens && answer->path.size() > 2) {
-      std::mt19937_64 random(request_.seed);
+      std::mt19937_64 random(seed);
       internal::ShortenRigidPath(
           model_.gyration,
           std::max(answer->search_tests, kLeastShorteningTests), &links_,
@@ -85,35 +80,6 @@ class Portfolio {
   }
 
  private:
-  void Race(RigidAnswer* answer) {
-    std::vector<std::unique_ptr<TreeSearch>> searches;
-    for (const Runner& runner : kRunners) {
-      searches.push_back(std::make_unique<TreeSearch>(
-          model_, task_, runner.growth, request_.seed, &stop_));
-    }
-    while (!stop_.Asks()) {
-      // Whoever has done least of its share goes on.
-      std::size_t next = 0;
-      for (std::size_t i = 1; i < kRunnerCount; ++i) {
-        if (Done(*searches[i], i) < Done(*searches[next], next)) next = i;
-      }
-      if (!searches[next]->Grow()) continue;
-      answer->path = searches[next]->path();
-      answer->planner = kRunners[next].name;
-      break;
-    }
-    for (const auto& search : searches) {
-      answer->checks += search->checks();
-      answer->tests += search->tests();
-      answer->nodes += search->nodes();
-    }
-  }
-
-  static double Done(const TreeSearch& search, std::size_t runner) {
-    const Runner& one = kRunners[runner];
-    return static_cast<double>(search.work() - one.head_start) / one.share;
-  }
-
   void SayWhy(RigidAnswer* answer) const {
     answer->status = stop_.IsInterrupted() ? PathStatus::kInterrupted
                                            : PathStatus::kTimeLimit;
@@ -141,6 +107,10 @@ void RigidRequest::Validate() const {
         "rigid request: time_limit: expected seconds in (0, 1e9], found " +
         FormatDouble(time_limit));
   }
+  if (!(threads >= 1 && threads <= kMostThreads)) {
+    throw InputError("rigid request: threads: expected 1 to 64, found " +
+                     std::to_string(threads));
+  }
   const Eigen::AlignedBox3d untouched;
   const bool is_default =
       bounds.min() == untouched.min() && bounds.max() == untouched.max();
@@ -165,7 +135,7 @@ RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request) {
   const TreeTask task{request.start, request.goal,
                       internal::BoundsOf(world, request)};
   if (internal::AreEndsFree(world, task, &answer)) {
-    Portfolio(world.model(), request, task).Run(&answer);
+    RigidPlanner(world.model(), request, task).Run(&answer);
     if (!answer.path.empty() &&
         internal::ConfirmPath(world, task.bounds, &answer)) {
       answer.status = PathStatus::kSolved;

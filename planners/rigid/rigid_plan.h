@@ -22,8 +22,13 @@ struct RigidRequest {
   Eigen::AlignedBox3d bounds{};
   double time_limit = 10.0;  // seconds of wall time, in (0, 1e9]
   std::uint64_t seed = 1;    // of all random numbers
-  // Called before each motion is judged; returning true stops the planner, as
-  // the time limit does.
+  // So many searches race, each on a thread and with random numbers of its own;
+  // in [1, 64].  On fewer processors than threads each search takes as
+  // much longer.
+  int threads = 2;
+  // Called in the caller's thread only, before each motion that it judges and
+  // every few milliseconds while it waits for other threads; returning true
+  // stops the planner, as the time limit does.
   std::function<bool()> is_interrupted{};
   // Shorten the path?  As found it has hundreds of poses; shortening takes
   // short cuts and leaves out the poses that are not needed.
@@ -54,8 +59,11 @@ struct RigidAnswer {
   std::string planner;   // "line", "straight", "slide" or "tow"; "" if none
   double seconds = 0.0;  // wall time of the whole call
   double search_seconds = 0.0;  // of that, until a path was found or given up
-  // The same in processor seconds of the process, all its threads.
+  // The same in processor seconds of the process, all its threads: with two
+  // threads up to twice as much.
   double search_cpu_seconds = 0.0;
+  // Counts are of the thread whose path it is, as if there were no others,
+  // which are stopped wherever they are; without a path, of all threads.
   long checks = 0;              // motions judged
   long tests = 0;               // pairs of boxes and of triangles tested
   long search_tests = 0;        // of these, until a path was found or given up
@@ -85,14 +93,23 @@ struct RigidAnswer {
 //             to those of the obstacles
 //   tow       like slide, but a third of its slides pull only one corner of the
 //             robot to a place, and let the robot turn as it must
-// The first path found is shortened, by no more work than finding it took, but
-// for some milliseconds, and each of its motions is judged again.
+// That race is run on each thread with a seed of its own, the request's in the
+// caller's thread.  The path that took its thread the least work wins, work
+// being counted, not timed: once there is one, the other threads go on until
+// they have one for less, or have worked as much.  It is shortened, by no more
+// work than finding it took, but for some milliseconds, and each of its motions
+// is judged again.
 //
-// The same request in the same world gives the same path on the same machine
-// unless time runs out: all random numbers come from the seed.
+// The same request in the same world gives the same path on the same machine,
+// however busy that is, unless time runs out or the caller interrupts: all
+// random numbers come from the seed, and the answer is that of one thread with
+// the winner's seed.  If time runs out when one thread has a path and others
+// have not yet worked as much, that path is the answer.
 //
-// Throws InputError for bad requests.  Thread-safe; runs in the caller's
-// thread.  Memory grows by tens of MB in a minute.
+// Throws InputError for bad requests, and std::system_error if a thread cannot
+// be started.  Thread-safe; runs in the caller's thread and, unless the
+// straight motion is free, in `threads` − 1 others that have ended when it
+// returns. Memory grows by tens of MB in a minute, for each thread.
 RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request);
 
 }  // namespace phongpd

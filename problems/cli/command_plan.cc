@@ -161,6 +161,11 @@ void CheckPlanFlags(const PlanFlags& flags, const PlanRequest& request) {
     throw InputError("--ompl-log: expected a planner of OMPL, found " +
                      std::string(ToString(request.planner)));
   }
+  if (flags.app->count("--threads") > 0) {
+    throw InputError(
+        "--threads: expected with a robot that turns, found one that only "
+        "translates");
+  }
   if (flags.require && !request.clearance) {
     throw InputError("--require: expected --clearance, found none");
   }
@@ -274,6 +279,12 @@ Command AddPlan(CLI::App* app) {
       ->transform(SecondsAboveZero())
       ->type_name("S");
   AddRuns(app, "Of the first run", flags.get());
+  app->add_option("--threads", flags->threads,
+                  "Of a robot that turns: so many searches race, each on a "
+                  "thread and with random numbers of its own")
+      ->check(Between(1, 64))
+      ->type_name("N")
+      ->capture_default_str();
   AddRowOutput(app, flags.get());
   app->add_option("--ompl-log", flags->ompl_log,
                   "Also run OMPL's own benchmark on the planner and write its "

@@ -82,6 +82,7 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
                "--require", "--ompl-log", "--svg", "--verify", "--explain"});
   const TurningScene scene = SceneOf(flags, source);
   RigidRequest request = RigidRequestOf(scene);
+  request.threads = flags.threads;
   request.Validate();
   return AnswerRuns(
       flags, source, scene,

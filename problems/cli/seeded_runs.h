@@ -24,6 +24,7 @@ struct SeededRunFlags {
   std::string repair = "reject";  // of those that do not say
   std::uint64_t seed = 0;         // S
   int runs = 1;
+  int threads = 2;         // of a robot that turns
   std::string time_limit;  // of a run; the command says what it limits
   std::string output;
   std::string html;

@@ -44,6 +44,7 @@ Json RigidRow(const TurningScene& scene, const RigidRequest& request,
   row["scene"] = scene.name;
   row["planner"] = PlannerName(answer);
   row["seed"] = request.seed;
+  row["threads"] = request.threads;
   row["status"] = ToString(answer.status);
   row["reason"] = answer.reason;
   row["solved"] = row["collision_free"] = HasFreePath(answer.status);

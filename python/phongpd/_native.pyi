@@ -127,10 +127,10 @@ class RigidWorld:
     def __init__(self, robot: Sequence[tuple[_Floats, _Ints]],
                  obstacles: Sequence[tuple[_Floats, _Ints]]) -> None: ...
     def plan(self, ends: _Floats, bounds: _Floats, time_limit: float,
-             seed: int) -> _RigidAnswer: ...
+             seed: int, threads: int) -> _RigidAnswer: ...
     def optimize(self, ends: _Floats, bounds: _Floats, time_limit: float,
-                 seed: int, start_from: str, knots: int, margin: float,
-                 start_noise: float, is_tracked: bool) -> tuple[
+                 seed: int, threads: int, start_from: str, knots: int,
+                 margin: float, start_noise: float, is_tracked: bool) -> tuple[
         _RigidAnswer, str, bool, float, int, int, int]: ...
     robot: list[tuple[_Floats, _Ints]]
     obstacles: list[tuple[_Floats, _Ints]]

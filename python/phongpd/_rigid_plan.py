@@ -167,28 +167,30 @@ class RigidWorld(Shown):
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,
              bounds: ArrayLike | None = None, time_limit: float | None = None,
-             seed: int = 1) -> RigidPlan:
+             seed: int = 1, threads: int = 2) -> RigidPlan:
         """Searches a path between two poses, (4, 4) each; None: the scene's where
         it was loaded.  bounds: (2, 3), of the robot's origin; None: the scene's,
         or around obstacles, start and goal.  time_limit: in seconds; None: the
-        scene's, or 10.  The same seed gives the same path unless time runs
-        out."""
+        scene's, or 10.  threads: so many searches race, each on a thread and with
+        random numbers of its own; as many as there are processors to spare.  The
+        same seed and threads give the same path unless time runs out."""
         return RigidPlan(*self._answer(self._native.plan(
             *self._task(start, goal, bounds, time_limit),
-            seed_number(seed))))
+            seed_number(seed), _thread_number(threads))))
 
     def optimize(self, start: ArrayLike | None = None,
                  goal: ArrayLike | None = None, *,
                  bounds: ArrayLike | None = None,
                  time_limit: float | None = None,
-                 seed: int = 1, start_from: str = "both", knots: int = 8,
-                 margin: float = 0.0, start_noise: float = 0.0,
-                 tracked: bool = False) -> RigidOptimum:
+                 seed: int = 1, threads: int = 2, start_from: str = "both",
+                 knots: int = 8, margin: float = 0.0,
+                 start_noise: float = 0.0, tracked: bool = False
+                 ) -> RigidOptimum:
         """A short path between two poses, as of plan: Ipopt with rows on exact
         depth, added where a motion between samples is not proved free.
 
-        start_from: "straight", through what is in its way, "planner", from the
-        path of plan, or "both", the second where the first fails. knots: poses
+        threads: of plan.  start_from: "straight", through what is in its way,
+        "planner", from the path of plan, or "both", the second where the first fails. knots: poses
         between the ends, at least. margin: clearance at samples, 0: a
         thousandth of the robot's reach. start_noise: share of the straight
         way's length by which its knots are moved, at random. tracked:
@@ -197,7 +199,7 @@ class RigidWorld(Shown):
         (answer, solver, confirmed, planned_length, rounds, iterations,
          added) = self._native.optimize(
             *self._task(start, goal, bounds, time_limit),
-            seed_number(seed), start_from,
+            seed_number(seed), _thread_number(threads), start_from,
             whole_number(knots, "knots", 0), real(margin, "margin"),
             real(start_noise, "start_noise"), flag(tracked, "tracked"))
         return RigidOptimum(*self._answer(answer), solver, confirmed,
@@ -248,6 +250,10 @@ class RigidWorld(Shown):
             raise InputError(f"{name}: expected a pose, found None, and no scene "
                              "was loaded that has one")
         return of_scene
+
+
+def _thread_number(value: Any) -> int:
+    return whole_number(value, "threads", 1, 64)
 
 
 @dataclass(frozen=True)

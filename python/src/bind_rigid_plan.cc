@@ -24,13 +24,14 @@ namespace {
 
 // Of (2, 4, 4), start and goal; bounds of (2, 3) or (0, 3): none.
 RigidRequest RequestOf(const Poses& ends, const Rows3& bounds,
-                       double time_limit, std::uint64_t seed) {
+                       double time_limit, std::uint64_t seed, int threads) {
   RigidRequest request;
   request.start = PoseOf(ToMatrix(ends, 0), "start");
   request.goal = PoseOf(ToMatrix(ends, 1), "goal");
   if (bounds.shape(0) == 2) request.bounds = {Row(bounds, 0), Row(bounds, 1)};
   request.time_limit = time_limit;
   request.seed = seed;
+  request.threads = threads;
   return request;
 }
 
@@ -79,9 +80,9 @@ nb::tuple LoadTurning(const std::string& text) {
 }
 
 nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
-                    const Rows3& bounds, double time_limit,
-                    std::uint64_t seed) {
-  RigidRequest request = RequestOf(ends, bounds, time_limit, seed);
+                    const Rows3& bounds, double time_limit, std::uint64_t seed,
+                    int threads) {
+  RigidRequest request = RequestOf(ends, bounds, time_limit, seed, threads);
   return ToTuple(Interruptible([&](const std::atomic<bool>& is_asked) {
     request.is_interrupted = [&is_asked] { return is_asked.load(); };
     return Plan(world, request);
@@ -90,10 +91,11 @@ nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
 
 nb::tuple OptimizePoses(const RigidWorld& world, const Poses& ends,
                         const Rows3& bounds, double time_limit,
-                        std::uint64_t seed, const std::string& from, int knots,
-                        double margin, double start_noise, bool is_tracked) {
+                        std::uint64_t seed, int threads,
+                        const std::string& from, int knots, double margin,
+                        double start_noise, bool is_tracked) {
   RigidOptimizeRequest request;
-  request.task = RequestOf(ends, bounds, time_limit, seed);
+  request.task = RequestOf(ends, bounds, time_limit, seed, threads);
   request.from = ParseRigidStart(from, "start_from");
   request.knots = knots;
   request.margin = margin;

@@ -59,6 +59,7 @@ RigidOptimizeRequest RequestOf(const RigidScene& scene, unsigned seed) {
   request.task.goal = scene.goal;
   request.task.bounds = {scene.bounds.min, scene.bounds.max};
   request.task.seed = seed;
+  request.task.threads = 1;  // limit and seconds are of the processor
   request.start_noise = 0.02;
   return request;
 }

@@ -64,6 +64,7 @@ Outcome RunOurs(const RigidScene& scene, const RigidWorld& world,
   request.goal = scene.goal;
   request.bounds = {scene.bounds.min, scene.bounds.max};
   request.seed = options.seed;
+  request.threads = 1;  // as the planners beside it have
   // Processor time ends it; the clock of a machine that others use, later.
   const double begin = CpuSeconds();
   request.time_limit = 100.0 * (1.0 + options.limit);

@@ -42,6 +42,14 @@ def test_a_plank_turns_to_get_through_a_slit():
     assert (again.poses == plan.poses).all()
 
 
+def test_a_plan_by_any_number_of_threads_is_the_same_each_time():
+    world = phongpd.RigidWorld(PLANK, WALLS)
+    for threads in (1, 3):
+        one, other = (world.plan(at(-2), at(2, np.pi), bounds=BOUNDS, time_limit=60,
+                                 threads=threads) for _ in range(2))
+        assert one.solved and (one.poses == other.poses).all()
+
+
 def test_an_optimised_path_is_proved_and_no_longer_than_the_plan():
     world = phongpd.RigidWorld(PLANK, WALLS)
     found = world.optimize(at(-2), at(2, np.pi), bounds=BOUNDS, time_limit=120,
@@ -70,7 +78,9 @@ def test_refuses_bad_input_in_one_line():
     world = phongpd.RigidWorld(PLANK, WALLS)
     for arguments, text in (
             ({"bounds": (1, 2, 3)}, "bounds: expected"),
-            ({"time_limit": 0.0}, "time"), ({"time_limit": np.nan}, "time")):
+            ({"time_limit": 0.0}, "time"), ({"time_limit": np.nan}, "time"),
+            ({"threads": 0}, "threads: expected a whole number of at least 1"),
+            ({"threads": 65}, "at most 64"), ({"threads": 1.5}, "threads")):
         with pytest.raises(phongpd.InputError, match=text) as error:
             world.plan(at(-2), at(2), **arguments)
         assert "\n" not in str(error.value)

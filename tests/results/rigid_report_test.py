@@ -57,6 +57,16 @@ class OmplApp(unittest.TestCase):
         self.assertEqual(list(app.lines(found))[2],
                          "| alpha | 5 | 2 (12 – 77 %) | 3 | 4 | failed, time_limit |")
 
+    def test_two_threads_stand_beside_one(self):
+        found = [dict(of_the_app(1, "solved", 2.0), wall_seconds="1.5"),
+                 dict(of_the_app(2, "solved", 4.0), wall_seconds="2.5"),
+                 dict(of_the_app(3, "time_limit", 60.0, "no"), wall_seconds="")]
+        heading, rule, line = app.lines(found)
+        self.assertEqual(heading.count("|"), rule.count("|"))
+        self.assertEqual(heading.count("|"), line.count("|"))
+        self.assertTrue(line.endswith("| time_limit | 2 | 2 | 2.5 |"), line)
+        self.assertIn("On two threads", app.page(found, "how"))
+
     def test_the_page_is_that_of_the_rows(self):
         folder = SOURCE / "results" / "rigid"
         text = (folder / "ompl_app.md").read_text(encoding="utf-8")
