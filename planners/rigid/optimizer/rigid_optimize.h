@@ -22,9 +22,9 @@ RigidStart ParseRigidStart(const std::string& text, const std::string& what);
 
 // What Optimize is asked: a short path of poses from start to goal.
 struct RigidOptimizeRequest {
-  // Start, goal, bounds, seed, and the time limit of the whole call.  A third
-  // of it at most goes into freeing the straight motion, nine tenths of what is
-  // left into Plan.
+  // Start, goal, bounds, seed, Plan's threads, and the time limit of the whole
+  // call.  A third of it at most goes into freeing the straight motion, nine
+  // tenths of what is left into Plan.
   RigidRequest task;
   RigidStart from = RigidStart::kBoth;
   int knots = 8;  // least number of poses between start and goal, in [1, 200]

@@ -99,6 +99,20 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
       << glb.err;
 }
 
+TEST_F(CliTurning, RowsAreTheSameButForTimesByAsManyThreads) {
+  const std::string plan = "plan " + Write(Slit()) + " --seed 3 --json";
+  const auto row = [&](const std::string& flags) {
+    Json found = Json::parse(Run(plan + flags).out);
+    found.erase("seconds");
+    return found;
+  };
+  EXPECT_EQ(row("")["threads"], 2);
+  EXPECT_EQ(row(""), row(" --threads 2"));
+  const Json three = row(" --threads 3");
+  EXPECT_EQ(three["threads"], 3);
+  EXPECT_EQ(three, row(" --threads 3"));
+}
+
 TEST_F(CliTurning, OptimizesThePathOfAPlank) {
   const Outcome outcome = Run("optimize " + Write(Slit()) +
                               " --start planner --time 60 --output rows.jsonl");
@@ -142,6 +156,8 @@ TEST_F(CliTurning, RefusesWhatOnlyTranslatingRobotsHave) {
   ExpectRefused(plan + " --planner contact-surface",
                 {"--planner", "none for a robot that turns"});
   ExpectRefused(plan + " --time 0", {"time"});
+  ExpectRefused(plan + " --threads 0", {"--threads", "1 to 64", "found 0"});
+  ExpectRefused("plan u_axis --threads 2", {"--threads", "a robot that turns"});
   ExpectRefused("compare ../scene.json", {"/robot/turns", "phongpd plan"});
   for (const char* flag : {"--metric phong", "--limits 1,1,1", "--margin 0.1",
                            "--model full", "--rows 2"}) {
