@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 
 namespace phongpd {
 

@@ -97,7 +97,9 @@ RobotPose RigidMotion::At(double t) const {
   RobotPose pose;
   pose.position = (1.0 - t) * start_.position + t * end_.position;
   pose.orientation =
-      (TurnBy(axis_, t * angle_) * start_.orientation).normalized();
+      angle_ > 0.0
+          ? (TurnBy(axis_, t * angle_) * start_.orientation).normalized()
+          : start_.orientation;
   return pose;
 }
 

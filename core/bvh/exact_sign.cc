@@ -59,14 +59,14 @@ class Expansion {
 };
 
 // a − b exactly.
-struct Difference {
+struct ExactDifference {
   double part[2];
-  Difference(double a, double b) { TwoSum(a, -b, &part[1], &part[0]); }
+  ExactDifference(double a, double b) { TwoSum(a, -b, &part[1], &part[0]); }
 };
 
 // u·v − w·z.
-Expansion<16> Minor(const Difference& u, const Difference& v,
-                    const Difference& w, const Difference& z) {
+Expansion<16> Minor(const ExactDifference& u, const ExactDifference& v,
+                    const ExactDifference& w, const ExactDifference& z) {
   Expansion<16> minor;
   for (const double a : u.part) {
     for (const double b : v.part) minor.AddProduct(a, b);
@@ -130,7 +130,7 @@ int Orient3dExact(const double* a, const double* b, const double* c,
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       const Expansion<16> minor =
           Minor({b[j], a[j]}, {c[k], a[k]}, {b[k], a[k]}, {c[j], a[j]});
-      const Difference w(d[i], a[i]);
+      const ExactDifference w(d[i], a[i]);
       for (int m = 0; m < minor.size(); ++m) {
         det.AddProduct(minor[m], w.part[0]);
         det.AddProduct(minor[m], w.part[1]);

@@ -21,7 +21,6 @@ using Eigen::Vector3d;
 
 // Of the larger operand: beyond, a double no longer tells its vertices apart.
 constexpr double kFarthest = 1e15;
-constexpr double kUnitLength = 1e-9;
 // Of a way: what of it across the facet is rounding.
 constexpr double kAcross = 1e-12;
 
@@ -279,18 +278,6 @@ Depth PenetrationDepth(const Solid& robot, const Solid& obstacle,
 Depth PenetrationDepth(const TriangleMesh& robot, const TriangleMesh& obstacle,
                        const RobotPose& pose, const DepthOptions& options) {
   return DepthQuery(robot, obstacle, options).At(pose);
-}
-
-void CheckPose(const RobotPose& pose, const std::string& what) {
-  const Eigen::Vector4d& q = pose.orientation.coeffs();
-  if (!pose.position.allFinite() || !q.allFinite()) {
-    throw InputError(what + ": expected a finite pose, found NaN or infinity");
-  }
-  if (!(std::abs(q.stableNorm() - 1.0) <= kUnitLength)) {
-    throw InputError(what +
-                     ": expected a unit quaternion (to 1e-9), found length " +
-                     Described(q.stableNorm()) + "; divide it by its length");
-  }
 }
 
 }  // namespace phongpd

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <array>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/contact/robot_pose.h"
 #include "core/solid/solid.h"
 
 // How deep?  Which to take:
@@ -32,14 +32,6 @@
 // by ToDepth.  "Where", its status, is exact and means the same for all; how an
 // answer goes on from the one before is QueryStatus.
 namespace phongpd {
-
-// Where the robot A is put: every vertex a becomes R·a + q, with R the matrix
-// of the quaternion.
-struct RobotPose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // q, user's unit
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of unit
-                                                                    // length
-};
 
 enum class DepthStatus {
   kPenetrating,  // q is strictly inside C_obj
@@ -171,9 +163,5 @@ Depth PenetrationDepth(const Solid& robot, const Solid& obstacle,
 Depth PenetrationDepth(const TriangleMesh& robot, const TriangleMesh& obstacle,
                        const RobotPose& pose = {},
                        const DepthOptions& options = {});
-
-// Throws InputError "<what>: …" unless the pose is finite and its quaternion of
-// unit length to 1e-9.
-void CheckPose(const RobotPose& pose, const std::string& what);
 
 }  // namespace phongpd
