@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 #include "core/mesh/triangle_mesh.h"
 
 // Poses at which edges and faces of robot and obstacles lie along each other.

@@ -9,6 +9,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 Vector3d TurnBetween(const Quaterniond& a, const Quaterniond& b) {
+  if (a.coeffs() == b.coeffs()) return Vector3d::Zero();
   const Quaterniond turn = b * a.conjugate();
   const double sign = turn.w() < 0.0 ? -1.0 : 1.0;
   const double s = turn.vec().norm();

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 
 // Displacements of a robot as vectors of six lengths, (v, L ω): v moves its
 // origin, ω turns it about that, L is its radius of gyration (rigid_world.h).

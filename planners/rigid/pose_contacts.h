@@ -9,7 +9,7 @@
 
 #include "core/bvh/box_tree.h"
 #include "core/bvh/triangle_corners.h"
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/rigid/rigid_links.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 
 namespace phongpd::internal {
 

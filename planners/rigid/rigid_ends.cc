@@ -3,30 +3,11 @@
 
 #include <string>
 
-#include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
+#include "planners/rigid/end_depth.h"
 
 namespace phongpd::internal {
 namespace {
-
-constexpr double kDepthSeconds = 1.0;
-
-// None: not both are solids, they touch, or it is not known within a second.
-std::optional<double> DepthOf(const RigidWorld& world, const RigidCheck& check,
-                              const RobotPose& pose) {
-  if (check.robot_mesh < 0 || check.obstacle_mesh < 0) return std::nullopt;
-  DepthOptions options;
-  options.max_seconds = kDepthSeconds;
-  try {
-    const Depth depth = PenetrationDepth(
-        world.robot()[static_cast<std::size_t>(check.robot_mesh)],
-        world.obstacles()[static_cast<std::size_t>(check.obstacle_mesh)], pose,
-        options);
-    if (depth.certified && depth.depth > 0.0) return depth.depth;
-  } catch (const InputError&) {  // no solids, or too much to build
-  }
-  return std::nullopt;
-}
 
 std::string WhoMeets(const RigidWorld& world, const RigidCheck& check) {
   const auto name = [](const char* side, std::size_t meshes, int mesh,
@@ -61,7 +42,7 @@ bool IsEndFree(const RigidWorld& world, const TreeTask& task,
     answer->status = in_collision;
     answer->collision = check;
     answer->reason = "the " + name + " is not free: " + WhoMeets(world, check);
-    answer->depth = DepthOf(world, check, pose);
+    answer->depth = DepthAtEnd(world, check, pose);
     if (answer->depth) {
       answer->reason += ", " + Rounded(*answer->depth) + " deep";
     }

@@ -97,6 +97,23 @@ class RigidPlanner {
   RigidLinks links_;
 };
 
+RigidAnswer PlanTask(const RigidWorld& world, const RigidRequest& request,
+                     bool turns) {
+  const Stopwatch watch;
+  RigidAnswer answer;
+  const TreeTask task{request.start, request.goal,
+                      internal::BoundsOf(world, request), turns};
+  if (internal::AreEndsFree(world, task, &answer)) {
+    RigidPlanner(world.model(), request, task).Run(&answer);
+    if (!answer.path.empty() &&
+        internal::ConfirmPath(world, task.bounds, &answer)) {
+      answer.status = PathStatus::kSolved;
+    }
+  }
+  answer.seconds = watch.Seconds();
+  return answer;
+}
+
 }  // namespace
 
 void RigidRequest::Validate() const {
@@ -130,19 +147,22 @@ void RigidRequest::Validate() const {
 
 RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request) {
   request.Validate();
-  const Stopwatch watch;
-  RigidAnswer answer;
-  const TreeTask task{request.start, request.goal,
-                      internal::BoundsOf(world, request)};
-  if (internal::AreEndsFree(world, task, &answer)) {
-    RigidPlanner(world.model(), request, task).Run(&answer);
-    if (!answer.path.empty() &&
-        internal::ConfirmPath(world, task.bounds, &answer)) {
-      answer.status = PathStatus::kSolved;
-    }
+  return PlanTask(world, request, true);
+}
+
+RigidAnswer PlanWithoutTurning(const RigidWorld& world,
+                               const RigidRequest& request) {
+  request.Validate();
+  const Eigen::Vector4d& first = request.start.orientation.coeffs();
+  const Eigen::Vector4d& last = request.goal.orientation.coeffs();
+  if (first != last) {
+    throw InputError(
+        "rigid request: goal: expected to be turned as the start, found " +
+        FormatPoint(last.head<3>()) + ',' + FormatDouble(last.w()) + " and " +
+        FormatPoint(first.head<3>()) + ',' + FormatDouble(first.w()) +
+        " (x,y,z,w); let it turn, or turn the meshes");
   }
-  answer.seconds = watch.Seconds();
-  return answer;
+  return PlanTask(world, request, false);
 }
 
 }  // namespace phongpd

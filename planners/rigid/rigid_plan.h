@@ -112,4 +112,13 @@ struct RigidAnswer {
 // returns. Memory grows by tens of MB in a minute, for each thread.
 RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request);
 
+// The same for a robot that translates and keeps its orientation bit for bit,
+// which start and goal have alike.  Straight and slide search, without aligned
+// features.  For surfaces that bound no solid, where nothing can be built, and
+// for pages; among solids the Plan of planners/solve/plan.h is complete, and
+// proves that there is no path.  Throws InputError for a goal that is turned
+// otherwise, too.
+RigidAnswer PlanWithoutTurning(const RigidWorld& world,
+                               const RigidRequest& request);
+
 }  // namespace phongpd

@@ -23,6 +23,8 @@ constexpr Runner kRunners[] = {
 RigidPortfolio::RigidPortfolio(const RigidModel& model, const TreeTask& task,
                                std::uint64_t seed, RigidStop* stop) {
   for (const Runner& runner : kRunners) {
+    // To tow is to let it turn; it comes last.
+    if (runner.growth == TreeGrowth::kTow && !task.turns) continue;
     searches_.push_back(
         std::make_unique<TreeSearch>(model, task, runner.growth, seed, stop));
   }

@@ -11,9 +11,9 @@
 
 namespace phongpd::internal {
 
-// Three searches from one seed, straight, slide and tow, that take turns by the
-// work that they have done, so that each does its share of it (rigid_plan.h).
-// One thread at a time.
+// Three searches from one seed, straight, slide and, for what turns, tow, that
+// take turns by the work that they have done, so that each does its share of it
+// (rigid_plan.h). One thread at a time.
 class RigidPortfolio {
  public:
   RigidPortfolio(const RigidModel& model, const TreeTask& task,

@@ -34,8 +34,9 @@ constexpr double kSettled = 1e-9;
 
 }  // namespace
 
-RigidSlide::RigidSlide(const RigidModel& model, RigidLinks* links)
+RigidSlide::RigidSlide(const RigidModel& model, bool turns, RigidLinks* links)
     : model_(model),
+      turns_(turns),
       links_(links),
       gyration_(model.gyration),
       skin_(kSkin * model.reach),
@@ -168,6 +169,7 @@ void RigidSlide::MakeRows(const Matrix6& factor, double length,
     if (rows_ >= kMaxRows) break;
     Vector6 raw;
     raw << contact.normal, contact.arm.cross(contact.normal) / gyration_;
+    if (!turns_) raw.tail<3>().setZero();
     const auto known = raw_.begin() + rows_;
     const bool is_known =
         std::any_of(raw_.begin(), known, [&](const Vector6& other) {

@@ -33,7 +33,8 @@ struct SlidePull {
 // One slider per thread.
 class RigidSlide {
  public:
-  RigidSlide(const RigidModel& model, RigidLinks* links);
+  // `turns`: what is pulled may turn; else no pull asks it to, and ω is 0.
+  RigidSlide(const RigidModel& model, bool turns, RigidLinks* links);
 
   // From a free pose; the path starts with it, every link is proved free, and
   // every pose is nearer to what is pulled to than the one before.  True: the
@@ -71,6 +72,7 @@ class RigidSlide {
   Vector6 Project(const Vector6& wanted) const;
 
   const RigidModel& model_;
+  const bool turns_;
   RigidLinks* links_;
   const double gyration_, skin_, max_step_;
   std::vector<PoseContact> contacts_;

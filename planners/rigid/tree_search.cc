@@ -63,13 +63,13 @@ TreeSearch::TreeSearch(const RigidModel& model, const TreeTask& task,
                  : kRange * task.bounds.diagonal().norm()),
       random_(seed),
       links_(model.judge, stop),
-      slide_(model, &links_),
+      slide_(model, task.turns, &links_),
       trees_{PoseTree(task.start, model.gyration),
              PoseTree(task.goal, model.gyration)} {}
 
 bool TreeSearch::Grow() {
   ++rounds_;
-  if (growth_ != TreeGrowth::kStraight && !model_.features.IsEmpty() &&
+  if (growth_ != TreeGrowth::kStraight && CanAlign() &&
       Uniform() < kPassageShare) {
     return GrowPassage();
   }
@@ -156,7 +156,7 @@ bool TreeSearch::Enter(int side, std::size_t chosen) {
 TreeSearch::Aim TreeSearch::Draw(int side) {
   Aim aim;
   const double kind = growth_ == TreeGrowth::kStraight ? 1.0 : Uniform();
-  if (kind < kAlignedShare && !model_.features.IsEmpty()) {
+  if (kind < kAlignedShare && CanAlign()) {
     aim = AlignedAim();
   } else if (kind < kAlignedShare + kLocalShare) {
     aim.pose = PoseAround(side, &aim.node);
@@ -173,7 +173,8 @@ RobotPose TreeSearch::AnyPose() {
   for (int k = 0; k < 3; ++k) {
     pose.position[k] = task_.bounds.min()[k] + Uniform() * size[k];
   }
-  pose.orientation = AnyOrientation(&random_);
+  pose.orientation =
+      task_.turns ? AnyOrientation(&random_) : task_.start.orientation;
   return Clamped(pose);
 }
 
@@ -254,6 +255,7 @@ RobotPose TreeSearch::Jittered(const RobotPose& pose, double length) {
   Vector6 move;
   do {
     for (int k = 0; k < 6; ++k) move[k] = normal(random_);
+    if (!task_.turns) move.tail<3>().setZero();
   } while (!(move.norm() > 1e-3));
   return Clamped(Moved(pose, move * (length / move.norm()), model_.gyration));
 }

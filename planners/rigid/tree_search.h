@@ -20,6 +20,9 @@ enum class TreeGrowth { kStraight, kSlide, kTow };
 struct TreeTask {
   RobotPose start, goal;  // free, within the bounds
   Eigen::AlignedBox3d bounds;
+  // False: every pose is turned as the start is, and so is the goal, bit for
+  // bit.
+  bool turns = true;
 };
 
 // Two trees, from start and goal, that grow in turn: one towards a pose drawn
@@ -31,6 +34,7 @@ struct TreeTask {
 //     anywhere; or where these lie on each other, the one of some that is
 //     between most walls, and then on along them;
 //   - poses around a node that was drawn seldom.
+// What does not turn is drawn anywhere or around a node, and has no passages.
 //
 // Slides and tows know passages, too: from such a tight pose along its edges
 // both ways, as far as slides get.  Out of a hole there are many ways, into it
@@ -90,6 +94,7 @@ class TreeSearch {
                     bool* met);
   void Join(int side, int mine, int its);
 
+  bool CanAlign() const { return task_.turns && !model_.features.IsEmpty(); }
   double Uniform() { return std::uniform_real_distribution<double>()(random_); }
   RobotPose Clamped(RobotPose pose) const;
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 #include "planners/rigid/object_norm.h"
 
 namespace phongpd::internal {

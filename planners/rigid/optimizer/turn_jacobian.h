@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 
 // Derivatives of turns.  A small turn δ of a rotation is exp([δ]) R, in the
 // frame of the obstacles; radians.
