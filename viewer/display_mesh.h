@@ -11,6 +11,8 @@ namespace phongpd {
 inline constexpr std::size_t kMaxDisplayTriangles = 200000;
 // What a page takes for its probe, in doubles: some 45 bytes a triangle.
 inline constexpr std::size_t kMaxProbeTriangles = 100000;
+// What a page takes for its solver, which judges motions by them.
+inline constexpr std::size_t kMaxSolverTriangles = 10000;
 
 // Edges of what a planner grew that are drawn.
 inline constexpr std::size_t kMaxDisplayEdges = 50000;

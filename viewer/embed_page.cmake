@@ -27,6 +27,7 @@ if(THREE)
           task_drag.js
           task_turn.js
           task_answer.js
+          solver.js
           task_panel.js
           section_map.js
           surface_map.js

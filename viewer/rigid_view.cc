@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/rigid_view.h"
 
-#include <cmath>
 #include <utility>
 
-#include "constraints/rigid/rigid_motion.h"
-#include "core/pi.h"
+#include "viewer/drawn_poses.h"
 
 namespace phongpd {
 
@@ -29,20 +27,13 @@ View TurningSceneView(const TurningScene& scene) {
 
 NamedPath RigidPath(std::string name, const std::vector<RobotPose>& poses,
                     bool is_free) {
-  constexpr double kTurn = 3.0 * kPi / 180.0;
   NamedPath path;
   path.name = std::move(name);
   path.is_free = is_free;
-  const auto add = [&path](const RobotPose& pose) {
+  for (const RobotPose& pose : DrawnPoses(poses)) {
     path.points.push_back(pose.position);
     path.turns.push_back(pose.orientation);
-  };
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    const RigidMotion motion(poses[i], poses[i + 1]);
-    const double steps = std::ceil(std::max(1.0, motion.angle() / kTurn));
-    for (double k = 0.0; k < steps; ++k) add(motion.At(k / steps));
   }
-  if (!poses.empty()) add(poses.back());
   return path;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/depth.h"
+#include "core/contact/robot_pose.h"
 #include "problems/scenes/turning_scene.h"
 #include "viewer/view.h"
 
@@ -13,8 +13,7 @@ namespace phongpd {
 // The scene's robot and obstacles, start and goal as they are turned.
 View TurningSceneView(const TurningScene& scene);
 
-// A way of poses, between which the robot moves by RigidMotion, with as many
-// between them as it takes for each to turn by at most 3 degrees.
+// The way through DrawnPoses of these.
 NamedPath RigidPath(std::string name, const std::vector<RobotPose>& poses,
                     bool is_free);
 

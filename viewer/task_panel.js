@@ -1,5 +1,5 @@
 // Start and goal that can be moved, and what is asked of them: by the server
-// that the page came from, by the probe in the page, or by whoever reads it.
+// that the page came from, by the library in the page, or by whoever reads it.
 
 // What can be asked of a scene's kind; `by`: the choices of a setting, the
 // first the scene's own.
@@ -27,6 +27,7 @@ class TaskPanel {
   constructor(viewer) {
     this.viewer = viewer;
     this.task = viewer.data.task;
+    this.solver = viewer.data.solver ? new Solver(viewer.data) : null;
     this.tasks = kTasks[this.task.kind];
     this.what = Object.keys(this.tasks)[0];
     this.robot = 0;      // of several: whose ends the fields are of
@@ -87,7 +88,7 @@ class TaskPanel {
                'degrees.' : '')));
     section.id = 'task';
     this.choose(this.what);
-    if (this.task.served) return section;
+    if (this.task.served || this.solver) return section;
     // Little can be asked of a page alone: it is there for who looks for it.
     const [title, ...rest] = section.childNodes;
     section.append(make('details', {}, make('summary', {}, title), ...rest));
@@ -129,7 +130,7 @@ class TaskPanel {
   choose(what) {
     this.what = what;
     const {option, by} = this.tasks[what];
-    this.by.replaceChildren(...(option ? [make(
+    this.by.replaceChildren(...(option && this.task.served ? [make(
         'label', {class: 'row wide'}, make('span', {}, 'by ' + option),
         make('select', {id: 'task-by', class: 'map'},
              make('option', {value: ''}, 'scene\'s own'),
@@ -184,7 +185,7 @@ class TaskPanel {
     }
     if (this.hasRobots) byId('task-robot').value = this.robot;
     byId('solve').disabled = this.isBusy;
-    byId('cancel').hidden = !this.isBusy || !this.task.served;
+    byId('cancel').hidden = !this.isBusy || !(this.task.served || this.solver);
   }
 
   async solve() {
@@ -196,11 +197,12 @@ class TaskPanel {
     try {
       if (this.task.served) {
         takeAnswer(this, await askServer(this));
+      } else if (what === 'plan' && this.solver) {
+        takeAnswer(this, await this.solver.plan(questionOf(this)));
       } else if (what === 'depth' && viewer.probe) {
         await this.probeStart();
       } else {
-        this.say('This page has no solver behind it. Run: ' +
-                 this.task.command);
+        this.say(this.whatSolves());
       }
     } catch (error) {
       this.say(error.message, true);
@@ -210,9 +212,17 @@ class TaskPanel {
     this.tell();
   }
 
+  whatSolves() {
+    return (this.solver ? 'This page by itself finds paths' +
+                          (this.viewer.probe ? ' and depths' : '') + ' only'
+                        : 'This page has no solver behind it') +
+        '. Run: ' + this.task.command;
+  }
+
   // The answer to the question says so, too.
   async cancel() {
     this.say('cancelling …');
+    if (!this.task.served) return this.solver.cancel();
     await post('cancel', {}).catch(() => {});
   }
 

@@ -6,15 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/contact/contact_space.h"
-#include "core/mesh/mesh_error.h"
-#include "core/projection/phong_field.h"
 #include "problems/output/text.h"
 #include "viewer/display_mesh.h"
 #include "viewer/page_numbers.h"
-#include "viewer/probe/probe_module.h"
 #include "viewer/view_entries.h"
 #include "viewer/view_json_behind.h"
+#include "viewer/view_json_modules.h"
 
 namespace phongpd {
 namespace {
@@ -48,84 +45,6 @@ Json MeshJson(const TriangleMesh& mesh, const std::string& name,
           {"shown", shown.mesh.triangles.size()},
           {"positions", Base64(ShownPositions(shown.mesh.vertices, frame))},
           {"indices", Base64(CornerBytes(shown.mesh))}};
-}
-
-// For the probe: not as it is shown but as it is, in doubles.
-Json ExactJson(const TriangleMesh& mesh) {
-  std::string positions;
-  for (const Vector3d& p : mesh.vertices) {
-    for (int k = 0; k < 3; ++k) AppendNumber(&positions, p[k]);
-  }
-  return {{"positions", Base64(positions)},
-          {"indices", Base64(CornerBytes(mesh))}};
-}
-
-// Can metrics be made of it?  Parts of contact spaces are drawn, too: of bounds
-// the walls alone, which look inwards.
-bool IsWhole(const ViewMesh& mesh) {
-  if (!(SignedVolume(mesh.mesh) > 0.0)) return false;
-  try {
-    ContactSpace::Parts parts;
-    parts.mesh = mesh.mesh;
-    const ContactSpace space(std::move(parts), mesh.name);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-// What the page needs for its probe; null without contact spaces, where they
-// are shown in part or too large, or where the probe was not built.
-Json ProbeJson(const View& view, std::vector<std::string>* notes) {
-  BoundingBox box;
-  std::size_t triangles = 0;
-  for (const ViewMesh& mesh : view.meshes) {
-    if (mesh.role != ViewRole::kContactSpace || mesh.mesh.triangles.empty()) {
-      continue;
-    }
-    const BoundingBox own = ComputeBounds(mesh.mesh);
-    box = triangles == 0 ? own
-                         : BoundingBox{box.min.cwiseMin(own.min),
-                                       box.max.cwiseMax(own.max)};
-    triangles += mesh.mesh.triangles.size();
-  }
-  if (triangles == 0) return nullptr;
-  if (triangles > kMaxProbeTriangles) {
-    notes->push_back("The live probe is left out: contact spaces of " +
-                     std::to_string(triangles) + " triangles, at most " +
-                     std::to_string(kMaxProbeTriangles));
-    return nullptr;
-  }
-  for (const ViewMesh& mesh : view.meshes) {
-    if (mesh.role != ViewRole::kContactSpace || IsWhole(mesh)) continue;
-    if (mesh.name == kConvolutionName) {
-      notes->push_back(
-          "There is no live probe: free space alone was modelled, which tells "
-          "no depth.");
-      return nullptr;
-    }
-    notes->push_back(
-        "There is no live probe: of the contact space only a part that bounds "
-        "free space is shown.");
-    return nullptr;
-  }
-  const std::string module(internal::ProbeModule());
-  if (module.empty()) {
-    notes->push_back(
-        "There is no live probe: this program was built without clang, lld, "
-        "wasi-libc and libc++ for wasm32.");
-    return nullptr;
-  }
-  Json json = {{"module", Base64(module)},
-               {"length", view.length > 0.0 ? view.length : box.Diagonal()},
-               {"smoothing_length", kDefaultSmoothingLength},
-               {"spaces", Json::array()}};
-  for (const ViewMesh& mesh : view.meshes) {
-    if (mesh.role == ViewRole::kContactSpace && !mesh.mesh.triangles.empty()) {
-      json["spaces"].push_back(ExactJson(mesh.mesh));
-    }
-  }
-  return json;
 }
 
 Json MotionJson(const ViewMotion& motion) {
@@ -283,8 +202,10 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     json["answers"].push_back(AnswerEntry(answer));
     json["windows"].push_back(WindowsJson(answer));
   }
-  json["probe"] = ProbeJson(view, &notes);
+  json["probe"] = internal::ProbeJson(view, &notes);
   json["task"] = TaskJson(view);
+  json["solver"] =
+      json["task"].is_null() ? Json(nullptr) : internal::SolverJson(view);
   json["notes"] = notes;
   return json;
 }

@@ -35,6 +35,8 @@ namespace phongpd {
 //   windows[{reaches[], axes[3][x, y, z]} or null]  one for each answer
 //   probe {module (base64 of WebAssembly), length (D), spaces[{positions
 //     (base64 of float64 triples), indices}]} or null
+//   solver {module (base64 of WebAssembly), robot {positions (base64 of float64
+//     triples), indices}, obstacles[the same]} or null: where the page can plan
 //   task {command, served}  whether start and goal can be moved, and what the
 //     page asks then: the server that it came from, or the person who reads it
 //     to run the command; null: it shows no such scene

@@ -23,6 +23,7 @@ from viewer_controls import work_controls, work_iterations, work_overlays
 from viewer_metrics import (probe_like_the_program, work_probe, work_section,
                             work_surface)
 from viewer_served import work_kinds
+from viewer_solver import work_solver
 from viewer_task import (chart_of_a_motion, labels_beside_the_panel,
                          page_in_a_page, work_phone, work_served, work_task)
 
@@ -267,6 +268,7 @@ def main():
         chart_of_a_motion(browser, checks, pages["motion"])
         labels_beside_the_panel(browser, checks, pages["trap"])
         work_task(browser, checks, pages["trap"])
+        work_solver(browser, checks, program, folder, pages)
         browser.open(pages["motion"])
         if browser.run("viewer.data.probe !== null"):
             work_phone(browser, checks, pages["trap"], folder)

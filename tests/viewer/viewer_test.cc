@@ -16,6 +16,7 @@
 #include "viewer/page_numbers.h"
 #include "viewer/view_json.h"
 #include "viewer/view_page.h"
+#include "viewer/wasm/page_modules.h"
 
 namespace phongpd {
 namespace {
@@ -143,6 +144,40 @@ TEST(ViewJson, NamesPathsAndSaysWhichAreFree) {
   EXPECT_EQ(json["paths"][1]["points"][1], Json({1004.0, 0.0, 0.0}));
   EXPECT_TRUE(json["paths"][2]["points"].empty());
   EXPECT_TRUE(json["motion"].is_null());
+}
+
+// A build without a compiler for WebAssembly has no module.
+TEST(ViewJson, PlansByItselfForOneRobotAmongFewTriangles) {
+  View view = SomeView();
+  view.motion = {};
+  view.serve_command = "phongpd view x --serve";
+  view.start = Eigen::Vector3d(1, 2, 3);
+  view.goal = Eigen::Vector3d(4, 5, 6);
+  const auto solver = [&view] { return ViewJson(view)["solver"]; };
+  if (internal::SolverModule().empty()) {
+    EXPECT_TRUE(solver().is_null());
+    GTEST_SKIP() << "built without WebAssembly";
+  }
+  const Json json = solver();
+  ASSERT_FALSE(json.is_null());
+  // 8 bytes a coordinate, in base64.
+  const std::size_t bytes = 24 * view.robot.vertices.size();
+  EXPECT_EQ(json["robot"]["positions"].get<std::string>().size(),
+            4 * ((bytes + 2) / 3));
+  EXPECT_FALSE(json["obstacles"].empty());
+  View other = view;
+  view.is_served = true;
+  EXPECT_TRUE(solver().is_null()) << "the server has a better one";
+  view = other;
+  view.movers.push_back({"belt", view.robot, {}});
+  EXPECT_TRUE(solver().is_null()) << "obstacles that move";
+  view = other;
+  view.robot = MakeUvBall(1.0, 80, 80);
+  ASSERT_GT(view.robot.triangles.size(), kMaxSolverTriangles);
+  EXPECT_TRUE(solver().is_null()) << "too many triangles";
+  view = other;
+  for (ViewMesh& mesh : view.meshes) mesh.role = ViewRole::kMesh;
+  EXPECT_TRUE(solver().is_null()) << "no obstacle";
 }
 
 TEST(ViewJson, AsksByTheKindOfItsRobots) {

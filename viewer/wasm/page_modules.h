@@ -5,8 +5,9 @@
 
 namespace phongpd::internal {
 
-// probe.cc as WebAssembly; empty if there was no compiler for it when this was
-// built.  Compiled in by embed_probe.cmake.
+// probe.cc and solver.cc as WebAssembly; empty if there was no compiler for it
+// when this was built.  Compiled in by embed_modules.cmake.
 std::string_view ProbeModule();
+std::string_view SolverModule();
 
 }  // namespace phongpd::internal

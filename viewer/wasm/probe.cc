@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The queries of the library for the pages of the viewer: compiled to
-// WebAssembly (probe.cmake), called by probe.js.  All numbers are in the user's
-// unit.  What a page hands over has passed the checks of the program that wrote
-// it; an exception stops the module, and the page says so.
-#include <cstdint>
+// WebAssembly (wasm_module.cmake), called by probe.js.  All numbers are in the
+// user's unit.
 #include <cstdlib>
-#include <exception>
 #include <memory>
 #include <vector>
 
@@ -13,27 +10,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
-
-// Of the page: says why nothing goes on, and does not return.
-extern "C" __attribute__((import_module("page"), import_name("fail"))) void
-FailPage(const char* why);
-
-// What the library throws all comes from std::exception.  There is no
-// unwinding here: the page hears the reason and drops the module.
-extern "C" void* __cxa_allocate_exception(std::size_t size) {
-  return std::malloc(size);
-}
-extern "C" [[noreturn]] void __cxa_throw(void* thrown, void*, void*) {
-  FailPage(static_cast<std::exception*>(thrown)->what());
-  __builtin_trap();
-}
-
-// Debian's compiler run-time for WebAssembly was built to look at these.
-extern "C" std::uintptr_t __stack_chk_guard;
-std::uintptr_t __stack_chk_guard = 0x5bd1e995;
-extern "C" [[noreturn]] void __stack_chk_fail() { __builtin_trap(); }
-
-#define PROBE_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
+#include "viewer/wasm/page_failure.h"
 
 namespace phongpd {
 namespace {
@@ -88,11 +65,9 @@ void Write(const TrackerResult& result, double* out) {
 }  // namespace
 }  // namespace phongpd
 
-PROBE_EXPORT(allocate) void* Allocate(int bytes) { return std::malloc(bytes); }
-
 // Takes the next contact space, of `vertices` × 3 coordinates and `triangles`
 // × 3 indices, and frees both.
-PROBE_EXPORT(add_space)
+PAGE_EXPORT(add_space)
 void AddSpace(double* coordinates, int vertices, int* indices, int triangles) {
   phongpd::ContactSpace::Parts parts;
   for (int v = 0; v < vertices; ++v) {
@@ -110,7 +85,7 @@ void AddSpace(double* coordinates, int vertices, int* indices, int triangles) {
 
 // Makes the metrics: of spaces with one D, `length`, and a smoothing length
 // that is a share of it.
-PROBE_EXPORT(prepare) void Prepare(double length, double smoothing_length) {
+PAGE_EXPORT(prepare) void Prepare(double length, double smoothing_length) {
   for (phongpd::Probed& probed : phongpd::All()) {
     const phongpd::ContactSpace space = probed.space.WithLength(length);
     phongpd::PhongMetricOptions options;
@@ -124,7 +99,7 @@ PROBE_EXPORT(prepare) void Prepare(double length, double smoothing_length) {
 }
 
 // Forgets where the robot was: the next answers are cold.
-PROBE_EXPORT(forget) void Forget() {
+PAGE_EXPORT(forget) void Forget() {
   for (phongpd::Probed& probed : phongpd::All()) {
     probed.branch = {};
     probed.state = {};
@@ -133,7 +108,7 @@ PROBE_EXPORT(forget) void Forget() {
 
 // The answers of Euclidean and Phong depth at (x, y, z), wherever the robot
 // was: two rows of kNumbers for each space in turn.  Valid until the next call.
-PROBE_EXPORT(query_cold)
+PAGE_EXPORT(query_cold)
 const double* QueryCold(double x, double y, double z) {
   static std::vector<double> answers;
   answers.assign(phongpd::All().size() * 2 * phongpd::kNumbers, 0.0);
@@ -150,7 +125,7 @@ const double* QueryCold(double x, double y, double z) {
 
 // The answers at (x, y, z), which goes on from the point before: kMetrics rows
 // of kNumbers for each space in turn.  Valid until the next call.
-PROBE_EXPORT(query) const double* Query(double x, double y, double z) {
+PAGE_EXPORT(query) const double* Query(double x, double y, double z) {
   static std::vector<double> answers;
   answers.assign(phongpd::All().size() * phongpd::kMetrics * phongpd::kNumbers,
                  0.0);

@@ -1,0 +1,131 @@
+// The library's own planner in the page, beside it in a worker: for robots that
+// turn and for such as only translate.
+
+const kSolverSeconds = 30;
+
+// All that the worker runs; nothing of the page is there.
+function solverWorker() {
+  let calls = null;
+
+  const text = address => {
+    const bytes = new Uint8Array(calls.memory.buffer, address);
+    return new TextDecoder().decode(
+        bytes.subarray(0, Math.min(bytes.indexOf(0), 500)));
+  };
+
+  const memoryOf = (numbers, Kind) => {
+    const at = calls.allocate(numbers.length * Kind.BYTES_PER_ELEMENT);
+    new Kind(calls.memory.buffer, at, numbers.length).set(numbers);
+    return at;
+  };
+
+  const load = async ({module, robot, obstacles, bounds}) => {
+    const nothing = () => 0;
+    const tellTime = (clock, precision, at) => {
+      new DataView(calls.memory.buffer).setBigUint64(
+          at, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    };
+    const wasi = {environ_get: nothing, environ_sizes_get: nothing,
+                  fd_close: nothing, fd_seek: nothing, fd_write: nothing,
+                  proc_exit: nothing, clock_time_get: tellTime};
+    const made = await WebAssembly.instantiate(module, {
+      page: {fail: why => { throw new Error(text(why)); }},
+      wasi_snapshot_preview1: wasi,
+    });
+    calls = made.instance.exports;
+    calls._initialize();
+    const add = (isRobot, {positions, indices}) => calls.add_mesh(
+        isRobot, memoryOf(positions, Float64Array), positions.length / 3,
+        memoryOf(indices, Int32Array), indices.length / 3);
+    add(1, robot);
+    for (const mesh of obstacles) add(0, mesh);
+    if (bounds) calls.set_bounds(memoryOf(bounds, Float64Array));
+  };
+
+  const plan = ({ends, turns, seconds, seed}) => {
+    const solved = calls.plan(memoryOf(ends, Float64Array), turns ? 1 : 0,
+                              seconds, seed) === 1;
+    const count = calls.pose_count();
+    return {
+      solved, status: text(calls.status()), reason: text(calls.reason()),
+      planner: text(calls.planner()), length: calls.length(),
+      clearance: calls.clearance(), seconds: calls.took(),
+      poses: new Float64Array(calls.memory.buffer, calls.poses(), 7 * count)
+          .slice(),
+    };
+  };
+
+  onmessage = async ({data}) => {
+    try {
+      if (!calls) await load(data.scene);
+      postMessage({answer: plan(data)});
+    } catch (error) {
+      postMessage({error: error.message});
+    }
+  };
+}
+
+class Solver {
+  constructor(data) {
+    this.data = data;
+    this.worker = null;
+    this.asked = 0;  // who asks once more is given other random numbers
+  }
+
+  // What it needs once, in the form of messages.
+  scene() {
+    const {module, robot, obstacles} = this.data.solver, {bounds} = this.data;
+    const meshOf = ({positions, indices}) => ({
+      positions: new Float64Array(bytesOf(positions)),
+      indices: new Int32Array(bytesOf(indices)),
+    });
+    return {module: bytesOf(module), robot: meshOf(robot),
+            obstacles: obstacles.map(meshOf),
+            bounds: bounds ? [...bounds.min, ...bounds.max] : null};
+  }
+
+  // A question as the server has it; so is the answer.  Rejects with a
+  // sentence.
+  plan({start, goal, start_turn: first, goal_turn: last}) {
+    const turns = first !== undefined, still = [1, 0, 0, 0];
+    const ends = [...start, ...(first || still), ...goal, ...(last || still)];
+    const question = {ends, turns, seconds: kSolverSeconds, seed: ++this.asked};
+    if (!this.worker) {
+      this.worker = new Worker(URL.createObjectURL(
+          new Blob(['(' + solverWorker + ')()'], {type: 'text/javascript'})));
+      question.scene = this.scene();
+    }
+    return new Promise((done, fail) => {
+      this.fail = why => { this.stop(); fail(new Error(why)); };
+      this.worker.onerror = e => this.fail(e.message || 'no worker');
+      this.worker.onmessage = ({data: {answer, error}}) =>
+          error ? this.fail(error) : done(this.answerOf(answer, turns));
+      this.worker.postMessage(question);
+    });
+  }
+
+  answerOf(found, turns) {
+    const points = [], ways = [], {poses} = found;
+    for (let i = 0; i < poses.length; i += 7) {
+      points.push([...poses.slice(i, i + 3)]);
+      ways.push([...poses.slice(i + 3, i + 7)]);
+    }
+    const {solved, status, reason, planner, length, clearance} = found;
+    return {
+      what: 'plan',
+      row: {solved, status, reason, path_length: length, clearance,
+            seconds: found.seconds},
+      paths: [{name: 'plan · ' + planner + ', in the page', free: true, points,
+               turns: turns ? ways : null, pace: null, robot: null}],
+    };
+  }
+
+  // The worker goes, and what it was asked with it.
+  stop() {
+    if (this.worker) this.worker.terminate();
+    this.worker = null;
+  }
+
+  cancel() { if (this.worker && this.fail) this.fail('cancelled'); }
+}
