@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|fleets|rigid|rigid-optimize|rigid-ompl-app|wrench|study|
-# study-models|study-solvers|study-times|cluster|python|trade|slice|all]:
+# extremes|peers|trajectories|fleets|rigid|rigid-optimize|rigid-ompl-app|wrench|
+# study|study-further|study-models|study-solvers|study-times|cluster|python|trade|
+# slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all, nor is rigid-ompl-app FOLDER, for
@@ -16,13 +17,14 @@ suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
     extremes | peers | trajectories | fleets | rigid | rigid-optimize | \
-    rigid-ompl-app | wrench | study | study-models | study-solvers | study-times | cluster | \
-    python | trade | continuity | retraction | widths | slice | all) ;;
+    rigid-ompl-app | wrench | study | study-further | study-models | \
+    study-solvers | study-times | cluster | python | trade | continuity | \
+    retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
-      "rigid, rigid-optimize, rigid-ompl-app, wrench, study, study-models," \
-      "study-solvers, study-times, cluster, python, trade," \
+      "rigid, rigid-optimize, rigid-ompl-app, wrench, study, study-further," \
+      "study-models, study-solvers, study-times, cluster, python, trade," \
       "continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
@@ -105,7 +107,8 @@ if [[ $suite == convergence || $suite == all ]]; then
     --scenes "${scenes[@]}" --how "scripts/bench.sh convergence"
   python3 -B results/bench/convergence_report.py --output results/convergence
 fi
-if [[ $suite == study || $suite == study-models || $suite == all ]]; then
+if [[ $suite == study || $suite == study-further || $suite == study-models ||
+  $suite == all ]]; then
   # results/study/protocol.md; parts that were cut off go on where they were.
   scripts/python.sh
   scripts/build.sh phongpd phongpd_python
@@ -126,15 +129,21 @@ if [[ $suite == study || $suite == all ]]; then
   scenes=("${study_scenes[@]}")
   runs=${STUDY_SEEDS:-10}
   block build/study/first "$study_seed" "$runs" "${study_metrics[@]}"
-  # The second block of the protocol, of the same problems.
-  if [[ -n ${STUDY_FURTHER:-} ]]; then
-    block build/study/further "$study_seed" "$runs" "${study_further[@]}"
-  fi
   build/venv/bin/python -B results/bench/study_report.py results/study \
-    --rows build/study/*/rows.jsonl --how "Command: \`scripts/bench.sh \
+    --rows build/study/first-*/rows.jsonl --how "Command: \`scripts/bench.sh \
 study\`. Commit: $(git rev-parse --short HEAD)."
   build/venv/bin/python -B results/bench/study_power.py results/study \
     --measure build/phongpd
+fi
+if [[ $suite == study-further || $suite == all ]]; then
+  # The second block of the protocol, beside the first one's metrics.
+  scenes=("${study_scenes[@]}")
+  block build/study/further "$study_seed" "${STUDY_SEEDS:-5}" \
+    "${study_metrics[@]}" "${study_further[@]}"
+  build/venv/bin/python -B results/bench/study_report.py results/study \
+    --block further --rows build/study/further-*/rows.jsonl \
+    --how "Command: \`scripts/bench.sh study-further\`. Commit: $(git rev-parse \
+    --short HEAD)."
 fi
 if [[ $suite == study-models || $suite == all ]]; then
   # The protocol's last section.  More seeds: STUDY_MODELS_SEEDS=2.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of results/study from its rows: python3 -B study_report.py FOLDER
 [--block models] [--rows rows.jsonl rows.csv ...], which first makes rows.csv (of the
-block of others' meshes models.csv) of those: seeds that were made later join those that
-are published."""
+block of others' meshes models.csv, of the second block further.csv) of those: seeds
+that were made later join those that are published."""
 import argparse
 import csv
 import json
@@ -23,6 +23,12 @@ HYPOTHESES = (
     ("H5", "smoothed@0.2", "placebo@0.2"),
     ("H6", "smoothed-foot@0.2", "smoothed@0.2"),
     ("H7", "diffused@0.2", "phong@0.2"))
+# Of the second block, without claims: each beside Euclid, and beside the first block's of
+# its kind.
+FURTHER = (
+    ("phong@0", "phong@0.2"), ("phong@0.1", "phong@0.2"),
+    ("phong@0.2/exact", "phong@0.2"), ("followed", None),
+    ("smoothed@0.1", "smoothed@0.2"), ("smoothed@0.4", "smoothed@0.2"))
 COLUMNS = ("scene", "protocol", "method", "seed", "status", "status_class",
            "collision_free", "iterations", "restoration_iterations", "objective")
 
@@ -100,22 +106,28 @@ def log_ratio(a, b):
     return math.log(max(1, a["iterations"]) / max(1, b["iterations"]))
 
 
+def comparison(rows, protocol, a, b):
+    """A dictionary of how a does beside b."""
+    pairs = paired(rows, protocol, a, b)
+    shares = by_family(pairs, lambda x, y: float(x["converged"])
+                       - float(y["converged"]))
+    ratios = by_family(pairs, log_ratio)
+    return {
+        "a": a, "b": b, "protocol": protocol,
+        "differences": shares, "difference": sum(shares) / len(shares),
+        "interval": interval(shares, 0.95),
+        "ratio": math.exp(sum(ratios) / len(ratios)) if ratios else None,
+        "ratio_interval": [math.exp(x) for x in interval(ratios, 0.95)]
+        if ratios else None}
+
+
 def hypotheses(rows):
     """A dictionary for each comparison, all corrected together."""
     found = []
     for name, a, b in HYPOTHESES:
         for protocol in PROTOCOLS:
-            pairs = paired(rows, protocol, a, b)
-            shares = by_family(pairs, lambda x, y: float(x["converged"])
-                               - float(y["converged"]))
-            ratios = by_family(pairs, log_ratio)
-            found.append({
-                "name": name, "a": a, "b": b, "protocol": protocol,
-                "differences": shares, "difference": sum(shares) / len(shares),
-                "interval": interval(shares, 0.95), "p": p_of_flips(shares),
-                "ratio": math.exp(sum(ratios) / len(ratios)) if ratios else None,
-                "ratio_interval": [math.exp(x) for x in interval(ratios, 0.95)]
-                if ratios else None})
+            one = comparison(rows, protocol, a, b)
+            found.append({**one, "name": name, "p": p_of_flips(one["differences"])})
     for one, corrected in zip(found, holm([one["p"] for one in found])):
         one["corrected"] = corrected
         one["verdict"] = verdict(one["differences"], corrected)
@@ -143,21 +155,35 @@ def counts_table(rows):
     return lines
 
 
+def cells_of(one):
+    """Difference of the shares and ratio of the iterations, with intervals."""
+    low, high = one["interval"]
+    ratio = "–" if one["ratio"] is None else (
+        f"{one['ratio']:.2f} ({one['ratio_interval'][0]:.2f} … "
+        f"{one['ratio_interval'][1]:.2f})")
+    return (f"{percent(one['difference'])} ({percent(low)} … {percent(high)})", ratio)
+
+
 def hypotheses_table(found):
     lines = ["| | protocol | converged, points (95 %) | p, corrected | | "
              "iterations (95 %) |", "|---|---|---|---|---|---|"]
     for one in found:
-        low, high = one["interval"]
-        ratio = "–" if one["ratio"] is None else (
-            f"{one['ratio']:.2f} ({one['ratio_interval'][0]:.2f} … "
-            f"{one['ratio_interval'][1]:.2f})")
+        difference, ratio = cells_of(one)
         word = one["verdict"]
         lines.append(
             f"| {one['name']}: `{one['a']}` against `{one['b']}` | "
-            f"{one['protocol']} | {percent(one['difference'])} "
-            f"({percent(low)} … {percent(high)}) | {one['corrected']:.3f} | "
+            f"{one['protocol']} | {difference} | {one['corrected']:.3f} | "
             f"{'**' + word + '**' if word in ('win', 'loss') else word} | "
             f"{ratio} |")
+    return lines
+
+
+def further_table(found):
+    lines = ["| | protocol | converged, points (95 %) | iterations (95 %) |",
+             "|---|---|---|---|"]
+    for one in found:
+        lines.append(f"| `{one['a']}` against `{one['b']}` | {one['protocol']} | "
+                     + " | ".join(cells_of(one)) + " |")
     return lines
 
 
@@ -309,13 +335,52 @@ def report(folder, how, block=BLOCKS["first"]):
     (folder / block.page).write_text("\n".join(text))
 
 
+def apart_from_zero(found):
+    """Of comparisons those whose interval leaves 0 out, in words."""
+    return "; ".join(
+        f"`{one['a']}` against `{one['b']}`, {one['protocol']}: "
+        + percent(one["difference"]) for one in found
+        if not one["interval"][0] <= 0.0 <= one["interval"][1]) or "none"
+
+
+def further_report(folder, how):
+    """The page of the second block."""
+    rows = read_csv(folder, "further.csv")
+    found = [comparison(rows, protocol, a, b)
+             for a, kin in FURTHER for b in ("euclidean", kin) if b
+             for protocol in PROTOCOLS]
+    text = [
+        "# Further metrics, on the problems of the study", "",
+        asked(rows),
+        "with the first block's metrics once more, by the same program. The second block "
+        "of the",
+        "[protocol](protocol.md#runs), without claims: nothing here was asked "
+        "beforehand, and nothing",
+        "follows from it. All rows: [further.csv](further.csv).", "",
+        f"Of {len(found)} intervals (95 %, not corrected: one in twenty is expected to "
+        "leave 0 out where",
+        f"nothing differs) these leave 0 out: {apart_from_zero(found)}.", "",
+        "## Converged / stalled / exactly free", "", *counts_table(rows), "",
+        "## Beside Euclid, and beside the first block's of the kind", "",
+        "Points of a share, as the mean over families. Iterations: the ratio where both "
+        "converged;",
+        "below 1 the first is quicker.", "",
+        *further_table(found), "", how, ""]
+    (folder / "further.md").write_text("\n".join(text))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--block", choices=BLOCKS, default="first")
+    parser.add_argument("--block", choices=[*BLOCKS, "further"], default="first")
     parser.add_argument("--rows", nargs="+", default=[])
     parser.add_argument("--how", default="")
     arguments = parser.parse_args()
+    if arguments.block == "further":
+        if arguments.rows:
+            write_csv(arguments.folder, arguments.rows, "further.csv")
+        further_report(arguments.folder, arguments.how)
+        return
     block = BLOCKS[arguments.block]
     if arguments.rows:
         write_csv(arguments.folder, arguments.rows, block.rows)

@@ -123,6 +123,23 @@ def test_the_published_page_is_that_of_its_rows(block, tmp_path):
     assert (tmp_path / block.page).read_text() == page
 
 
+def test_the_page_of_further_metrics_is_that_of_its_rows(tmp_path):
+    folder = ROOT / "results/study"
+    (tmp_path / "further.csv").write_bytes((folder / "further.csv").read_bytes())
+    page = (folder / "further.md").read_text()
+    study_report.further_report(tmp_path, page.rstrip().splitlines()[-1])
+    assert (tmp_path / "further.md").read_text() == page
+
+
+def test_intervals_that_leave_zero_out_are_named():
+    found = [{"a": "x", "b": "y", "protocol": "p", "difference": 0.02,
+              "interval": interval} for interval in
+             ((-0.01, 0.05), (0.01, 0.03), (0.0, 0.04), (-0.04, -0.01))]
+    assert study_report.apart_from_zero(found) == (
+        "`x` against `y`, p: +2.0; `x` against `y`, p: +2.0")
+    assert study_report.apart_from_zero(found[:1]) == "none"
+
+
 def test_scenes_of_a_kind_are_counted_together():
     found = [study_report.kind(scene, {"bunny00"}) for scene in
              ("bunny00", "joint", "u:robot", "several3")]
