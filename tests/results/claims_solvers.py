@@ -153,3 +153,20 @@ claim("docs/limits.md", "path for all {:,} published runs, {:,} with each of thr
       sum(e[3] for e in PIPELINE), PIPELINE[0][3],
       100 * total("convergence/summary.csv", "within_2_percent", protocol="pipeline")
       / sum(e[3] for e in PIPELINE))
+
+# In solvers of others.
+OTHERS = where("study/solvers.csv", metric=E_PD, solver="snopt")
+
+
+def both(solver):
+    """Says solved and is free, by metric."""
+    return [sum(row["says"] == row["free"] == "true" for row in
+                where("study/solvers.csv", solver=solver, metric=metric))
+            for metric in (E_PD, PHONG, "smoothed@0.2")]
+
+
+claim("docs/choosing.md", "Of {} problems SNOPT solves {} with Euclid's direction, {} with "
+      "PhongPD's and {} with the smoothed one, Drake's KTO {}, {} and {}; a CHOMP, along "
+      "longer paths, {}, {} and {}", len(OTHERS), *both("snopt"), *both("kto"),
+      *both("chomp"))
+assert said("results/study/solvers.md", r"comparisons (\d+) are wins, 0 losses") == "0"
