@@ -121,7 +121,8 @@ to see what its robot asks of its limits.</p>'
 <p>A rod lies across a closed box. The one way out is a tunnel that reaches into the box
 and is narrower than the rod is long: the rod has to find its mouth and turn into it. From
 pose to pose it moves and turns at once, and all of each motion is proved free. (Where no
-way is found for a body that turns, that proves nothing.)</p>'
+way is found for a body that turns, that proves nothing.) Open it alone, drag its start or
+goal, and press Solve: the planner is in the page.</p>'
   frame turning.html "A rod on its way out of a box"
   rows turning turning.jsonl
   table turning turning.jsonl
