@@ -44,6 +44,14 @@ print(phongpd.depth(knot, knot, at=(9, 0, 0)).status, world.diagnose(START).free
 """
 
 
+def started(program, folder):
+    """As somebody's, at a terminal: what a shell runs in the background, these tests
+    with it, has SIGINT ignored, and so have all that it starts."""
+    return subprocess.Popen(
+        [sys.executable, "-c", program], cwd=folder, stdout=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+
+
 @pytest.mark.parametrize("call", [
     "phongpd.ContactSpace.build(knot, knot)",
     "phongpd.ContactSpacePiece.build(knot, knot, 0, 1)",
@@ -58,9 +66,7 @@ print(phongpd.depth(knot, knot, at=(9, 0, 0)).status, world.diagnose(START).free
     "row()",
 ])
 def test_ctrl_c_stops_a_build(call, tmp_path):
-    process = subprocess.Popen(
-        [sys.executable, "-c", PROGRAM.replace("CALL", call)], cwd=tmp_path,
-        stdout=subprocess.PIPE, text=True)
+    process = started(PROGRAM.replace("CALL", call), tmp_path)
     try:
         assert process.stdout.readline() == "begin\n"
         time.sleep(1)
@@ -96,8 +102,7 @@ except KeyboardInterrupt:
 
 
 def test_ctrl_c_stops_a_search(tmp_path):
-    process = subprocess.Popen([sys.executable, "-c", SEARCH], cwd=tmp_path,
-                               stdout=subprocess.PIPE, text=True)
+    process = started(SEARCH, tmp_path)
     try:
         assert process.stdout.readline() == "begin\n"
         time.sleep(1)
