@@ -170,3 +170,14 @@ claim("docs/choosing.md", "Of {} problems SNOPT solves {} with Euclid's directio
       "longer paths, {}, {} and {}", len(OTHERS), *both("snopt"), *both("kto"),
       *both("chomp"))
 assert said("results/study/solvers.md", r"comparisons (\d+) are wins, 0 losses") == "0"
+
+# "by intervals below zero" (results/README.md)
+for solver in ("snopt", "kto"):
+    assert said("results/study/solvers.md", r"S1: `smoothed@0\.2` against `euclidean` \| "
+                + solver + r" \| -[\d.]+ \(-[\d.]+ … (.)") == "-"
+
+# What a page plans by itself.
+claim("docs/viewer.md", "at most {:,} triangles",
+      int(said("viewer/display_mesh.h", r"kMaxSolverTriangles = (\d+);")))
+claim("docs/viewer.md", "proved free, twice; {} s at most",
+      int(said("viewer/solver.js", r"kSolverSeconds = (\d+);")))
