@@ -21,6 +21,7 @@ if(THREE)
           stage.js
           framing.js
           dress.js
+          page_module.js
           probe.js
           probe_panel.js
           color_key.js

@@ -24,31 +24,14 @@ class Probe {
   }
 
   async instantiate() {
-    const nothing = () => 0;
-    const wasi = {environ_get: nothing, environ_sizes_get: nothing,
-                  fd_close: nothing, fd_seek: nothing, fd_write: nothing,
-                  proc_exit: nothing};
-    const made = await WebAssembly.instantiate(bytesOf(this.data.module), {
-      page: {fail: why => { throw new Error(this.textAt(why)); }},
-      wasi_snapshot_preview1: wasi,
-    });
-    this.calls = made.instance.exports;
-    this.calls._initialize();
+    const {calls, put} = await startModule(bytesOf(this.data.module));
+    this.calls = calls;
     for (const {positions, indices} of this.data.spaces) {
       const p = new Float64Array(bytesOf(positions));
       const t = new Int32Array(bytesOf(indices));
-      const at = this.calls.allocate(8 * p.length);
-      const from = this.calls.allocate(4 * t.length);
-      new Float64Array(this.calls.memory.buffer, at, p.length).set(p);
-      new Int32Array(this.calls.memory.buffer, from, t.length).set(t);
-      this.calls.add_space(at, p.length / 3, from, t.length / 3);
+      calls.add_space(put(p, Float64Array), p.length / 3, put(t, Int32Array),
+                      t.length / 3);
     }
-  }
-
-  textAt(address) {
-    const bytes = new Uint8Array(this.calls.memory.buffer, address);
-    return new TextDecoder().decode(
-        bytes.subarray(0, Math.min(bytes.indexOf(0), 500)));
   }
 
   // Of metrics with this smoothing length, a share of D.

@@ -3,48 +3,22 @@
 
 const kSolverSeconds = 30;
 
-// All that the worker runs; nothing of the page is there.
-function solverWorker() {
-  let calls = null;
-
-  const text = address => {
-    const bytes = new Uint8Array(calls.memory.buffer, address);
-    return new TextDecoder().decode(
-        bytes.subarray(0, Math.min(bytes.indexOf(0), 500)));
-  };
-
-  const memoryOf = (numbers, Kind) => {
-    const at = calls.allocate(numbers.length * Kind.BYTES_PER_ELEMENT);
-    new Kind(calls.memory.buffer, at, numbers.length).set(numbers);
-    return at;
-  };
+// What the worker runs, with startModule; nothing else of the page is there.
+function solverWorker(startModule) {
+  let calls = null, text = null, put = null;
 
   const load = async ({module, robot, obstacles, bounds}) => {
-    const nothing = () => 0;
-    const tellTime = (clock, precision, at) => {
-      new DataView(calls.memory.buffer).setBigUint64(
-          at, BigInt(Math.round(performance.now() * 1e6)), true);
-      return 0;
-    };
-    const wasi = {environ_get: nothing, environ_sizes_get: nothing,
-                  fd_close: nothing, fd_seek: nothing, fd_write: nothing,
-                  proc_exit: nothing, clock_time_get: tellTime};
-    const made = await WebAssembly.instantiate(module, {
-      page: {fail: why => { throw new Error(text(why)); }},
-      wasi_snapshot_preview1: wasi,
-    });
-    calls = made.instance.exports;
-    calls._initialize();
+    ({calls, text, put} = await startModule(module));
     const add = (isRobot, {positions, indices}) => calls.add_mesh(
-        isRobot, memoryOf(positions, Float64Array), positions.length / 3,
-        memoryOf(indices, Int32Array), indices.length / 3);
+        isRobot, put(positions, Float64Array), positions.length / 3,
+        put(indices, Int32Array), indices.length / 3);
     add(1, robot);
     for (const mesh of obstacles) add(0, mesh);
-    if (bounds) calls.set_bounds(memoryOf(bounds, Float64Array));
+    if (bounds) calls.set_bounds(put(bounds, Float64Array));
   };
 
   const plan = ({ends, turns, seconds, seed}) => {
-    const solved = calls.plan(memoryOf(ends, Float64Array), turns ? 1 : 0,
+    const solved = calls.plan(put(ends, Float64Array), turns ? 1 : 0,
                               seconds, seed) === 1;
     const count = calls.pose_count();
     return {
@@ -92,8 +66,9 @@ class Solver {
     const ends = [...start, ...(first || still), ...goal, ...(last || still)];
     const question = {ends, turns, seconds: kSolverSeconds, seed: ++this.asked};
     if (!this.worker) {
+      const text = '(' + solverWorker + ')(' + startModule + ')';
       this.worker = new Worker(URL.createObjectURL(
-          new Blob(['(' + solverWorker + ')()'], {type: 'text/javascript'})));
+          new Blob([text], {type: 'text/javascript'})));
       question.scene = this.scene();
     }
     return new Promise((done, fail) => {
