@@ -38,6 +38,13 @@ bool RigidPortfolio::Grow() {
   return searches_[last_]->Grow();
 }
 
+bool RigidPortfolio::Search(RigidStop* stop) {
+  while (!stop->Asks()) {
+    if (Grow()) return true;
+  }
+  return false;
+}
+
 const char* RigidPortfolio::planner() const { return kRunners[last_].name; }
 
 long RigidPortfolio::Sum(long (TreeSearch::*count)() const) const {

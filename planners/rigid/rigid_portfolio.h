@@ -21,6 +21,8 @@ class RigidPortfolio {
 
   // A round of whoever has done least of its share; true: there is a path.
   bool Grow();
+  // Rounds until there is a path; false: `stop` ended them.
+  bool Search(RigidStop* stop);
   const std::vector<RobotPose>& path() const {
     return searches_[last_]->path();
   }

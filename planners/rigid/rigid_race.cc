@@ -143,12 +143,10 @@ class PortfolioRace {
     end->seed = LaneSeed(seed_, lane);
     RigidPortfolio portfolio(model_, task_, end->seed, &stop);
     self = &portfolio;
-    while (!stop.Asks()) {
-      if (!portfolio.Grow()) continue;
+    if (portfolio.Search(&stop)) {
       end->path = portfolio.path();
       end->planner = portfolio.planner();
       best_.Tell(BestFinish::Finish(portfolio.work(), lane));
-      break;
     }
     end->checks = portfolio.checks();
     end->tests = portfolio.tests();

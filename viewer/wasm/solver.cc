@@ -31,11 +31,9 @@ RaceEnd RacePortfolios(const RigidModel& model, const TreeTask& task,
   RigidPortfolio portfolio(model, task, seed, stop);
   RaceEnd end;
   end.seed = seed;
-  while (!stop->Asks()) {
-    if (!portfolio.Grow()) continue;
+  if (portfolio.Search(stop)) {
     end.path = portfolio.path();
     end.planner = portfolio.planner();
-    break;
   }
   end.checks = portfolio.checks();
   end.tests = portfolio.tests();
