@@ -311,9 +311,10 @@ if [[ $suite == rigid || $suite == all ]]; then
     PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
     results/bench/rigid_peers.py --output results/rigid --rows "$rows"
   PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
-    results/bench/rigid_ompl2.py --output results/rigid --rows "$rows"
+    results/bench/rigid_ompl2.py --output results/rigid --rows "$rows" \
+    --jobs "$(nproc)"
   python3 -B results/bench/rigid_benchmark.py --output results/rigid \
-    --rows "$rows" --how "scripts/bench.sh rigid${2:+ ${*:2}}" \
+    --rows "$rows" --jobs "$(nproc)" --how "scripts/bench.sh rigid${2:+ ${*:2}}" \
     --commit "$(git rev-parse --short HEAD)" "${@:2}"
 fi
 if [[ $suite == rigid-ompl-app ]]; then

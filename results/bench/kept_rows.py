@@ -3,7 +3,9 @@
 goes on where it was.  And the options of programs that write such rows, part by
 part."""
 import json
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from python_report import parser_of, told
@@ -25,25 +27,36 @@ def read(path):
     return rows
 
 
-def fill(path, wanted, measure, deadline=None, clock=None):
-    """Those of `wanted` (each with a key) that the file lacks.  An error is a
-    row: it is counted, not hidden.  Nothing new begins after the deadline."""
+def fill(path, wanted, measure, deadline=None, clock=None, jobs=1):
+    """Those of `wanted` (each with a key) that the file lacks, so many at a time:
+    more than one suits runs that are processes and whose times are the processor's.
+    An error is a row: it is counted, not hidden.  Nothing new begins after the
+    deadline.  Returns all rows, in the order of `wanted`, then those not wanted."""
     path.parent.mkdir(parents=True, exist_ok=True)
+    wanted = list(wanted)
     have = {row["key"] for row in read(path)}
-    with open(path, "a", encoding="utf-8") as file:
-        for one in wanted:
-            if one.key in have:
-                continue
-            if deadline is not None and clock() > deadline:
-                break
-            try:
-                row = measure(one)
-            except Exception as error:
-                row = {"key": one.key, "scene": one.scene, "pair": one.pair,
-                       "error": told(error, 300)}
+    writing = threading.Lock()
+
+    def make(one):
+        if deadline is not None and clock() > deadline:
+            return
+        try:
+            row = measure(one)
+        except Exception as error:
+            row = {"key": one.key, "scene": one.scene, "pair": one.pair,
+                   "error": told(error, 300)}
+        with writing:
             file.write(json.dumps(row) + "\n")
             file.flush()
-    return read(path)
+
+    with open(path, "a", encoding="utf-8") as file, ThreadPoolExecutor(jobs) as pool:
+        try:
+            list(pool.map(make, [one for one in wanted if one.key not in have]))
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    place = {one.key: i for i, one in enumerate(wanted)}
+    return sorted(read(path), key=lambda row: place.get(row["key"], len(place)))
 
 
 def parser_for(doc, program, parts):
@@ -55,17 +68,21 @@ def parser_for(doc, program, parts):
                         default="all")
     parser.add_argument("--minutes", type=float,
                         help="nothing new begins after so many")
+    parser.add_argument("--jobs", type=int, default=1,
+                        help="runs at a time, where processor seconds are told")
     parser.add_argument("--commit", default="unknown",
                         help="that PhongPD was built of, for README.md")
     return parser
 
 
-def run_part(arguments, part, wanted, measure, deadline, what):
-    """`deadline` as of time.monotonic(), or None."""
-    if arguments.part in (part, "all"):
-        found = fill(arguments.rows / f"{part}.jsonl", wanted, measure, deadline,
-                     time.monotonic)
-        print(f"{len(found)} {what}", flush=True)
+def run_part(arguments, part, wanted, measure, deadline, what, jobs=1):
+    """`deadline` as of time.monotonic(), or None.  Returns the rows there are."""
+    path = arguments.rows / f"{part}.jsonl"
+    if arguments.part not in (part, "all"):
+        return read(path)
+    found = fill(path, wanted, measure, deadline, time.monotonic, jobs)
+    print(f"{len(found)} {what}", flush=True)
+    return found
 
 
 def deadline_of(arguments):

@@ -134,7 +134,7 @@ def main():
                         help="where there is room; 1 where it is tight")
     arguments = parser.parse_args()
     rows.run_part(arguments, "ompl2", wanted(arguments.seeds), measure_alone,
-                  rows.deadline_of(arguments), "runs of OMPL 2.0")
+                  rows.deadline_of(arguments), "runs of OMPL 2.0", arguments.jobs)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import math
 import pathlib
 import subprocess
 import sys
+import threading
 from typing import NamedTuple
 
 import numpy as np
@@ -188,6 +189,21 @@ def test_rows_go_on_where_they_were_and_errors_are_rows(tmp_path):
     assert found[1]["error"] == "ValueError: two lines"
     late = rows.fill(file, [One("d")], measure, deadline=1.0, clock=lambda: 2.0)
     assert len(late) == 3
+
+
+def test_rows_of_runs_at_the_same_time_are_all_there_in_the_order_wanted(tmp_path):
+    file, met = tmp_path / "rows.jsonl", threading.Barrier(2, timeout=60)
+
+    def measure(one):
+        met.wait()  # ends only if two run at the same time
+        return {"key": one.key}
+
+    wanted = [One(f"{i}") for i in range(40)]
+    rows.fill(file, wanted[::-1], measure, jobs=2)
+    assert sorted(row["key"] for row in rows.read(file)) == sorted(
+        one.key for one in wanted)
+    assert [row["key"] for row in rows.fill(file, wanted[:39], measure)] == [
+        *(one.key for one in wanted[:39]), "39"]
 
 
 def test_best_known_only_improves_by_what_is_free_and_keeps_all_limits(tmp_path):
