@@ -6,8 +6,9 @@
 # slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
-# them (results/reproduction.md); it is no part of all, nor is rigid-ompl-app FOLDER, for
-# it takes a checkout of OMPL.app, FOLDER its resources/3D.
+# them (results/reproduction.md), study --quick the same of every table of the study
+# (results/study/slice.md); they are no part of all, nor is rigid-ompl-app FOLDER, for it
+# takes a checkout of OMPL.app, FOLDER its resources/3D.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -31,6 +32,23 @@ case $suite in
     exit 2
     ;;
 esac
+if [[ $suite == study && $# -ge 2 ]]; then
+  [[ $2 == --quick ]] || { echo "bench: study: expected --quick, found $2" >&2; exit 2; }
+  suite=study-slice
+fi
+study_peers() { # build/venv-study: solvers of others, and cyipopt against Debian's Ipopt
+  scripts/setup.sh python3-dev python3-venv coinor-libipopt-dev pkg-config
+  [[ -x build/venv-study/bin/python ]] || /usr/bin/python3 -m venv build/venv-study
+  local peer
+  for peer in numpy scipy casadi cyipopt drake osqp; do
+    build/venv-study/bin/pip install --quiet --disable-pip-version-check "$peer" ||
+      echo "bench: $peer cannot be installed" >&2
+  done
+}
+study_models() { # SEED: scenes of others' meshes
+  PYTHONPATH=$PWD/build/python build/venv/bin/python -B \
+    results/bench/study_models.py build/models "build/study/models/$1" --seed "$1"
+}
 if [[ $suite == paper || $suite == all ]]; then
   scripts/build.sh paper_benchmark
   build/paper_benchmark --output results/paper
@@ -151,8 +169,7 @@ if [[ $suite == study-models || $suite == all ]]; then
   for ((i = 0; i < ${STUDY_MODELS_SEEDS:-1}; ++i)); do
     seed=$((study_models_seed + i))
     folder=build/study/models/$seed
-    PYTHONPATH=$PWD/build/python build/venv/bin/python -B \
-      results/bench/study_models.py build/models "$folder" --seed "$seed"
+    study_models "$seed"
     scenes=("$folder"/*.json)
     block "$folder/rows" "$seed" 1 "${study_metrics[@]}"
   done
@@ -163,17 +180,12 @@ if [[ $suite == study-models || $suite == all ]]; then
     --short HEAD)."
 fi
 if [[ $suite == study-solvers || $suite == all ]]; then
-  # results/study/solvers_protocol.md.  cyipopt compiles itself against Debian's Ipopt.
-  scripts/setup.sh python3-dev python3-venv coinor-libipopt-dev pkg-config
+  # results/study/solvers_protocol.md.
   scripts/python.sh
   scripts/build.sh phongpd_python
   . scripts/study_scenes.sh
+  study_peers
   venv=build/venv-study
-  [[ -x $venv/bin/python ]] || /usr/bin/python3 -m venv "$venv"
-  for peer in numpy scipy casadi cyipopt drake osqp; do
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "$peer" ||
-      echo "bench: $peer cannot be installed" >&2
-  done
   # As for trajectories: what was interrupted goes on where it was.
   rows=build/study-solvers/$(git rev-parse HEAD)
   OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
@@ -183,6 +195,19 @@ if [[ $suite == study-solvers || $suite == all ]]; then
   "$venv/bin/python" -B results/bench/study_solvers_report.py results/study \
     --rows "$rows/rows.jsonl" --how "Command: \`scripts/bench.sh study-solvers\`. \
 Commit: $(git rev-parse --short HEAD). $(<"$rows/measured.txt")"
+fi
+if [[ $suite == study-slice ]]; then
+  scripts/models.sh build/models
+  scripts/python.sh
+  scripts/build.sh phongpd phongpd_python
+  . scripts/study_scenes.sh
+  study_peers
+  study_models "$study_models_seed"
+  OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python \
+    build/venv-study/bin/python -B results/bench/study_slice.py results/study \
+    --program build/phongpd --scenes "build/study/models/$study_models_seed" \
+    --seed "$study_seed" --how "Command: \`scripts/bench.sh study --quick\`. \
+Commit: $(git rev-parse --short HEAD)."
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
   scripts/build.sh phongpd

@@ -158,6 +158,9 @@ if(PHONGPD_HAS_PYTHON)
     add_test(NAME StudyPower
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/study_power_test.py)
+    add_test(NAME StudySlice
+             COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
+                     ${CMAKE_CURRENT_SOURCE_DIR}/results/study_slice_test.py)
     add_test(NAME StudySolvers
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/study_solvers_test.py)

@@ -50,10 +50,10 @@ def write_csv(folder, files):
         writer.writerow(COLUMNS)
         for key in sorted(rows):
             if counts[key[1]] == whole:
-                writer.writerow([_text(rows[key][column]) for column in COLUMNS])
+                writer.writerow([text_of(rows[key][column]) for column in COLUMNS])
 
 
-def _text(value):
+def text_of(value):
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:.6g}" if isinstance(value, float) else value
