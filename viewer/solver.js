@@ -90,7 +90,7 @@ class Solver {
     return {
       what: 'plan',
       row: {solved, status, reason, path_length: length, clearance,
-            seconds: found.seconds},
+            wanted: this.data.task.clearance, seconds: found.seconds},
       paths: [{name: 'plan · ' + planner + ', in the page', free: true, points,
                turns: turns ? ways : null, pace: null, robot: null}],
     };

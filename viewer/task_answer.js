@@ -93,6 +93,11 @@ function sentenceOf(viewer, {row, collision, closest}) {
   const room = clearance && clearance.lower !== undefined
       ? clearance.lower : clearance;
   if (Number.isFinite(room)) told.push('room ' + viewer.text(room));
+  // What is planned in the page keeps no clearance, and has to say so.
+  if (room < row.wanted) {
+    told.push('less than the ' + viewer.text(row.wanted) + ' that the scene asks for (' +
+              viewer.data.task.command + ' keeps it where there is room)');
+  }
   if (closest) told.push('closest ' + closest);
   // Of a plan, a path that was optimised, a motion in time, several motions.
   const {solve, total, plan, curve} = seconds;

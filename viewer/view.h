@@ -167,6 +167,7 @@ struct View {
   ViewMotion motion;                // no frames: none
   std::vector<ViewAnswer> answers;  // one robot, a pose each
   std::vector<ViewMover> movers;
+  double wanted_clearance = 0.0;  // of a path, by the scene; 0: none is named
   // What serves this view with a solver behind it: "phongpd view u_axis
   // --serve"; empty: nothing does.  `is_served`: by it the page comes.
   std::string serve_command;

@@ -156,6 +156,7 @@ Json TaskJson(const View& view) {
   }
   return {{"command", view.serve_command},
           {"served", view.is_served},
+          {"clearance", view.wanted_clearance},
           {"kind", !view.ends.empty() ? "robots"
                    : view.turns       ? "turns"
                                       : "translates"}};

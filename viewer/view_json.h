@@ -37,9 +37,10 @@ namespace phongpd {
 //     (base64 of float64 triples), indices}]} or null
 //   solver {module (base64 of WebAssembly), robot {positions (base64 of float64
 //     triples), indices}, obstacles[the same]} or null: where the page can plan
-//   task {command, served}  whether start and goal can be moved, and what the
-//     page asks then: the server that it came from, or the person who reads it
-//     to run the command; null: it shows no such scene
+//   task {command, served, clearance (0: none is asked for)}  whether start and
+//     goal can be moved, and what the page asks then: the server that it came
+//     from, or the person who reads it to run the command; null: it shows no
+//     such scene
 // Of graphs with more than kMaxDisplayEdges edges some are left out, and a note
 // says so; another where not every iteration is there.  Meshes with more than
 // `most_triangles` together are shown coarser, and a note says so.

@@ -62,7 +62,12 @@ def plans_a_translation(browser, checks, program, folder, page):
     judge(browser, checks, program, folder, "translates")
     browser.shoot(folder / "solver-translates.png")
     solve(browser, "plan")
-    checks.holds(f"viewer.stage.ways.length === {ways} + 1", "in place of the first")
+    checks.holds(f"viewer.stage.ways.length === {ways} + 1 && "
+                 f"!{SAYS}.includes('less than')", "in place of the first")
+    browser.run("(viewer.data.task.clearance = 10, 0)")
+    solve(browser, "plan")
+    checks.holds(f"{SAYS}.includes('less than the 10') && {SAYS}.includes('--serve')",
+                 "that it has less room than the scene asks for")
     browser.run(entered("start-y", 0.9))
     solve(browser, "plan")
     checks.holds(f"{SAYS}.startsWith('start in collision: the start is not free')",

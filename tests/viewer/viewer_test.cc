@@ -9,11 +9,13 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/pi.h"
+#include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/page_numbers.h"
 #include "viewer/display_mesh.h"
 #include "viewer/gltf.h"
 #include "viewer/page_numbers.h"
+#include "viewer/scene_view.h"
 #include "viewer/view_json.h"
 #include "viewer/view_page.h"
 #include "viewer/wasm/page_modules.h"
@@ -180,6 +182,17 @@ TEST(ViewJson, PlansByItselfForOneRobotAmongFewTriangles) {
   EXPECT_TRUE(solver().is_null()) << "no obstacle";
 }
 
+TEST(SceneView, TellsTheClearanceThatItsSceneAsksFor) {
+  Scene scene = SceneSource("u_axis").Load();
+  scene.planning.clearance.reset();
+  EXPECT_EQ(SceneView(scene).wanted_clearance, 0.0);
+  scene.planning.clearance = Length::FromUnit(0.125);
+  EXPECT_EQ(SceneView(scene).wanted_clearance, 0.125);
+  scene.planning.clearance = Length::FromShare(0.25);
+  const View view = SceneView(scene);
+  EXPECT_DOUBLE_EQ(view.wanted_clearance, 0.25 * view.length);
+}
+
 TEST(ViewJson, AsksByTheKindOfItsRobots) {
   View view = SomeView();
   view.motion = {};
@@ -188,6 +201,9 @@ TEST(ViewJson, AsksByTheKindOfItsRobots) {
   view.start = Eigen::Vector3d(1, 2, 3);
   view.goal = Eigen::Vector3d(4, 5, 6);
   EXPECT_EQ(ViewJson(view)["task"]["kind"], "translates");
+  EXPECT_EQ(ViewJson(view)["task"]["clearance"], 0.0);
+  view.wanted_clearance = 0.25;
+  EXPECT_EQ(ViewJson(view)["task"]["clearance"], 0.25);
   view.turns = true;
   EXPECT_EQ(ViewJson(view)["task"]["kind"], "turns");
   view.turns = false;
