@@ -174,7 +174,7 @@ if(PHONGPD_HAS_PYTHON)
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/statistics_test.py)
     set_tests_properties(
-      StudyModels StudySolvers StudyTimes TrajectoriesBenchmark
+      StudyModels StudySlice StudySolvers StudyTimes TrajectoriesBenchmark
       PROPERTIES
         TIMEOUT 300
         ENVIRONMENT

@@ -44,7 +44,7 @@ struct BudgetOptions {
 // What takes more than this is measured no further: status "over".  A model
 // that was refused or over for one problem of a case is so for all of them,
 // whatever the preset: it builds the same.
-constexpr double kMostSeconds = 10.0;
+inline constexpr double kMostSeconds = 10.0;
 
 // All flags on all problems of the case; both uses on the same problems.
 std::vector<BudgetRow> MeasureBudget(const BudgetCase& pair,

@@ -153,8 +153,13 @@ def ends(robot, obstacles, chance):
     raise SystemExit("expected a straight line that collides, found none")
 
 
+def file_of(name):
+    """That of the scene, in its folder."""
+    return name.replace(":", "-") + ".json"
+
+
 def write_scene(name, room, folder, seed):
-    path = folder / f"{name.replace(':', '-')}.json"
+    path = folder / file_of(name)
     scene = {"name": name, **room, "start": [0, 0, 0], "goal": [0, 0, 0]}
     path.write_text(json.dumps(scene))
     # Read back, as the program places solids.

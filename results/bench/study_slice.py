@@ -16,6 +16,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
+import study_models
 import study_power
 import study_report
 from python_report import machine, read_dicts
@@ -64,10 +65,12 @@ def compare(into, published, found, columns, name):
 def run_again(program, row, scene):
     """The row that phongpd compare makes of its problem."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(
+        done = subprocess.run(
             [program, "compare", scene, "--seed", row["seed"], "--runs", "1",
              "--max-iter", CAP, "--protocols", row["protocol"], "--metrics",
-             row["method"], "--output", folder], check=True, capture_output=True)
+             row["method"], "--output", folder], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(done.stderr.strip())
         (values,) = study_report.rows_of(pathlib.Path(folder) / "rows.jsonl")
         return dict(zip(study_report.COLUMNS, values))
 
@@ -152,9 +155,9 @@ def page(slices, how):
                                 for of in ("made", "identical", "rounded"))
     lines = [
         "# Do the study's rows still come out?", "",
-        "Rows spread evenly over the study's files, made anew by the code as it is and "
+        "Rows spread evenly over the study's files, made anew by the code as it is and",
         f"compared cell by cell: {identical} of {made} are identical, {rounded} more but "
-        "for rounding (1e-12). rate.csv is a time alone, and not made anew.", "",
+        "for rounding", "(1e-12). rate.csv is a time alone, and not made anew.", "",
         "| file | rows | made anew | identical | but for rounding | others | compared "
         "is all but |", "|---|---:|---:|---:|---:|---:|---|"]
     lines += [f"| {s.file} | {s.published} | {s.made} | {s.identical} | {s.rounded} | "
@@ -162,8 +165,7 @@ def page(slices, how):
     deviations = [d for s in slices for d in s.deviations]
     if deviations:
         lines += ["", "## What deviates", "",
-                  "Since rows.csv was made the smoothed normal is rounded otherwise "
-                  "([protocol.md](protocol.md)), so paths of its metrics part.", "",
+                  "What is known to be rounded otherwise: [protocol.md](protocol.md).", "",
                   "| file | row | column | published | now |", "|---|---|---|---|---|"]
         lines += ["| " + " | ".join(d) + " |" for d in deviations]
     return "\n".join([*lines, "", how, ""])
@@ -185,7 +187,7 @@ def main():
             lambda: of_comparisons(asked.folder, "further.csv", asked.program,
                                    asked.rows, str),
             lambda: of_comparisons(asked.folder, "models.csv", asked.program, asked.rows,
-                                   lambda name: str(asked.scenes / f"{name}.json")),
+                                   lambda name: str(asked.scenes / study_models.file_of(name))),
             lambda: of_meshes(asked.folder, asked.scenes),
             lambda: of_solvers(asked.folder, asked.rows),
             lambda: of_times(asked.folder, asked.rows, asked.seed),

@@ -7,8 +7,11 @@ import pathlib
 import stat
 import sys
 
+import pytest
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "results/bench"))
+pytest.importorskip("phongpd")
 import study_slice as slices  # noqa: E402
 
 
