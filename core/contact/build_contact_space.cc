@@ -60,6 +60,7 @@ class Builder {
     } else {
       BuildWhole();
     }
+    internal::FinishReport(&clock_, &out_);
     return ContactSpace(std::move(out_));
   }
 

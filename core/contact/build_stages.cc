@@ -121,6 +121,9 @@ void WriteSurface(const PatchSurface& surface, const Convolution& sides,
   RemoveZeroEdges(out);
   if (limits != nullptr) limits->CheckNow("surface");
   clock->Finish("surface");
+}
+
+void FinishReport(StageClock* clock, ContactSpace::Parts* out) {
   DescribeSurface(out->mesh, &out->report);
   out->report.peak_mib = PeakMib();
   clock->Finish("report");

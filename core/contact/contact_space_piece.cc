@@ -137,6 +137,7 @@ ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   try {
     internal::WriteJoinedSurface(boxes, first.outer_shell_only, first.frame,
                                  nullptr, &clock, &out);
+    internal::FinishReport(&clock, &out);
   } catch (const internal::SurfaceError&) {
     throw InputError(
         first.name +

@@ -195,6 +195,7 @@ ContactSpace::Parts ExploredBoxes::Surface(
       "free space explored in " + std::to_string(shown.size()) + " boxes";
   StageClock clock(&out.report);
   WriteJoinedSurface(pieces, false, pair_.frame, nullptr, &clock, &out);
+  if (!occupied_) FinishReport(&clock, &out);
   return out;
 }
 
