@@ -27,7 +27,8 @@ double Distance(const BoundingBox& box, const Vector3d& x) {
 }  // namespace
 
 ExploredSurface::ExploredSurface(const ConvolutionModel& model, double radius)
-    : boxes_(model, kWindowFacets, ExploredBoxes::Purpose::kContact),
+    : boxes_(model, radius > 0.0 ? kWindowFacets : kNearestFacets,
+             ExploredBoxes::Purpose::kContact),
       radius_(radius),
       scale_(std::ldexp(1.0, -std::ilogb(model.bounds().Diagonal()))) {}
 
