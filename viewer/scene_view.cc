@@ -28,8 +28,7 @@ View SceneView(const Scene& scene,
   view.movers = MoversOf(scene.moving, 0.0);
   view.length = ContactBounds(scene.workspace).Diagonal();
   if (scene.planning.clearance) {
-    view.wanted_clearance =
-        scene.planning.clearance->Resolve(view.length).unit;
+    view.wanted_clearance = scene.planning.clearance->Resolve(view.length).unit;
   }
   return view;
 }

@@ -24,10 +24,10 @@ std::vector<SurfacePiece> ArrangeBoxes(const std::vector<PlannedWindow>& boxes,
                                        const SolidCollision& judge,
                                        const BuildLimits& limits);
 
-// Joins boxes that fill all of space in which C_cont is, and writes the surface:
-// mesh, planes and kinds are those of one arrangement, to the last bit.  The
-// report is to be finished.  Throws LeakError where a cell beside the border of
-// a box is so thin that no point of it can be judged.
+// Joins boxes that fill all of space in which C_cont is, and writes the
+// surface: mesh, planes and kinds are those of one arrangement, to the last
+// bit.  The report is to be finished.  Throws LeakError where a cell beside the
+// border of a box is so thin that no point of it can be judged.
 void WriteJoinedSurface(const std::vector<SurfacePiece>& boxes, bool outer_only,
                         const GridFrame& frame, const BuildLimits* limits,
                         StageClock* clock, ContactSpace::Parts* out);
