@@ -27,6 +27,10 @@ const std::vector<BudgetChoice>& BudgetChoices() {
       {kPlan, 100000, 0.1, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 0, 4},
       {kPlan, 100000, 1, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 2, 4},
       {kPlan, 100000, 10, {Model::kWindow, Preset::kBalanced}, 4, 4},
+      {kPlan, 1000000, 0.01, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 0, 4},
+      {kPlan, 1000000, 0.1, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 0, 4},
+      {kPlan, 1000000, 1, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 0, 4},
+      {kPlan, 1000000, 10, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 2, 4},
       {kOptimize, 1000, 0.01, {Model::kWindow, Preset::kFast, PlannerId::kContactSurface, MetricKind::kEuclidean}, 0, 8},
       {kOptimize, 1000, 0.1, {Model::kWindow, Preset::kFast, PlannerId::kContactSurface, MetricKind::kEuclidean}, 7, 8},
       {kOptimize, 1000, 1, {Model::kWindow, Preset::kBalanced, PlannerId::kContactSurface, MetricKind::kEuclidean}, 8, 8},
@@ -39,6 +43,10 @@ const std::vector<BudgetChoice>& BudgetChoices() {
       {kOptimize, 100000, 0.1, {Model::kWindow, Preset::kFast}, 0, 4},
       {kOptimize, 100000, 1, {Model::kWindow, Preset::kFast}, 2, 4},
       {kOptimize, 100000, 10, {Model::kWindow, Preset::kFast}, 4, 4},
+      {kOptimize, 1000000, 0.01, {Model::kWindow, Preset::kFast}, 0, 4},
+      {kOptimize, 1000000, 0.1, {Model::kWindow, Preset::kFast}, 0, 4},
+      {kOptimize, 1000000, 1, {Model::kWindow, Preset::kFast}, 0, 4},
+      {kOptimize, 1000000, 10, {Model::kWindow, Preset::kFast}, 2, 4},
   };
   // clang-format on
   return choices;
