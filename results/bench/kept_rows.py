@@ -31,7 +31,7 @@ def fill(path, wanted, measure, deadline=None, clock=None, jobs=1):
     """Those of `wanted` (each with a key) that the file lacks, so many at a time:
     more than one suits runs that are processes and whose times are the processor's.
     An error is a row: it is counted, not hidden.  Nothing new begins after the
-    deadline.  Returns all rows, in the order of `wanted`, then those not wanted."""
+    deadline.  Returns all rows, in the order of `wanted`."""
     path.parent.mkdir(parents=True, exist_ok=True)
     wanted = list(wanted)
     have = {row["key"] for row in read(path)}
@@ -55,8 +55,13 @@ def fill(path, wanted, measure, deadline=None, clock=None, jobs=1):
         except KeyboardInterrupt:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+    return in_order(read(path), wanted)
+
+
+def in_order(rows, wanted):
+    """That of `wanted`, then those not wanted."""
     place = {one.key: i for i, one in enumerate(wanted)}
-    return sorted(read(path), key=lambda row: place.get(row["key"], len(place)))
+    return sorted(rows, key=lambda row: place.get(row["key"], len(place)))
 
 
 def parser_for(doc, program, parts):
@@ -79,7 +84,7 @@ def run_part(arguments, part, wanted, measure, deadline, what, jobs=1):
     """`deadline` as of time.monotonic(), or None.  Returns the rows there are."""
     path = arguments.rows / f"{part}.jsonl"
     if arguments.part not in (part, "all"):
-        return read(path)
+        return in_order(read(path), wanted)
     found = fill(path, wanted, measure, deadline, time.monotonic, jobs)
     print(f"{len(found)} {what}", flush=True)
     return found
