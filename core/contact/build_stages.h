@@ -58,8 +58,8 @@ void WriteSurface(const PatchSurface& surface, const Convolution& sides,
                   const GridFrame& frame, const BuildLimits* limits,
                   StageClock* clock, ContactSpace::Parts* out);
 
-// What the report says of the finished surface.  Takes a third of the time that
-// writing a small one does: not for surfaces that nobody asks about.
+// What the report says of the finished surface.  Looks at triangles in
+// pairs: not for surfaces that nobody asks about.
 void FinishReport(StageClock* clock, ContactSpace::Parts* out);
 
 }  // namespace phongpd::internal

@@ -18,7 +18,7 @@ namespace phongpd::internal {
 // Facets of the convolution that meet a box, about.
 inline constexpr std::size_t kWindowFacets = 200;
 // The same where only the nearest triangle is asked for: smaller boxes hold
-// less that is farther.  Chosen on meshes that no table has (results/lazy).
+// less that is farther.  Chosen on meshes that no table of results/ has.
 inline constexpr std::size_t kNearestFacets = 60;
 // Half-width of the first window, a share of the longest side of all sums, and
 // of each further one to the one before.
