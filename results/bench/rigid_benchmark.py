@@ -23,8 +23,8 @@ FINE = [("peg:0.1", 3), ("flange:0.15", 1), ("lock:0.05", 2), ("alpha:1.5", 2),
 # seeds first, as OMPL's take their whole limit where they find nothing: there they have
 # three seeds, and all where they find paths.
 EASY, EASY_LIMIT = ["window:4", "peg:1.5", "alpha:2.5"], 20
-TIGHT, TIGHT_LIMIT = ["piano:0.1", "peg:0.1", "ell:2.2", "lock:0.05", "rod_trap:0.1",
-                      "flange:0.15", "alpha:1.5", "alpha:1.2"], 60
+TIGHT, TIGHT_LIMIT = ["piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
+                      "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"], 60
 FEW_SEEDS, WITH_PATHS = 3, ["alpha:1.5", "alpha:1.2"]
 OURS = ("phongpd", "proof", "default")
 EASY_RUNS = [OURS, ("RRTConnect", "proof", "tuned"),
