@@ -18,7 +18,7 @@ JUDGED = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2.2",
 # Of so many refinements, each triangle in four each time: about 3,000 and 25,000.
 FINE = [("peg:0.1", 3), ("flange:0.15", 1), ("lock:0.05", 2), ("alpha:1.5", 2),
         ("piano:0.1", 4)]
-# What is wanted in the end takes days; this takes some hours on two cores.
+# What is wanted in the end takes days; this takes about an hour on two cores.
 # Where there is room many planners are asked.  Where it is tight ours runs with all its
 # seeds first, as OMPL's take their whole limit where they find nothing: there they have
 # three seeds, and all where they find paths.

@@ -44,9 +44,9 @@ NOTES = """\
   object norm as metric, the robot's reach as range). Without a path a run counts
   as longer than its limit. Wrong: a path with a motion that is proved to collide,
   by our judge. Where it is tight OMPL's have three seeds, but ten on alpha:1.5 and
-  alpha:1.2, where they find paths; rows with fewer were cut short, by `--minutes` or by
-  hand. How long straight steps are tried first was chosen on seeds 1 to 40 of peg:1.5,
-  of which 1 to 10 are published: not fresh there.
+  alpha:1.2, where they find paths; rows with fewer were cut short by `--minutes`. How
+  long straight steps are tried first was chosen on seeds 1 to 40 of peg:1.5, of which 1
+  to 10 are published: not fresh there.
 - Seconds and limits of planners are processor seconds of all threads of the run's
   process, milliseconds of judges those of their thread: other jobs shared the machine.
   Until a path is there; of PhongPD also of the whole answer, which is shortened,
