@@ -84,7 +84,8 @@ RobotPose PoseFlag(const std::string& text, const std::string& flag) {
         flag +
         ": expected X,Y,Z, or with ROLL,PITCH,YAW in degrees (or 1.5rad), "
         "or with QW,QX,QY,QZ, found " +
-        Counted(x.size(), "number"));
+        Counted(x.size(), "number") +
+        (x.size() == 1 ? "; commas, no spaces, join them" : ""));
   }
   RobotPose pose;
   pose.position = {x[0], x[1], x[2]};
