@@ -74,7 +74,7 @@ def newer_table(found):
             groups.setdefault((r["scene"], r["planner"], r["limit"]), []).append(r)
     return [[*key, len(of), sum(r["solved"] for r in of),
              sum(r["wrong"] > 0 for r in of),
-             statistics.median_low(r["checked"] for r in of),
+             statistics.median(r["checked"] for r in of),
              sum(r["in_python"] for r in of) / sum(r["seconds"] for r in of)]
             for key, of in groups.items()]
 

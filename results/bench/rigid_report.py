@@ -66,7 +66,7 @@ def run_table(found):
 
 def median(values):
     """Of seconds, infinite where no path was found."""
-    middle = statistics.median_low(values)
+    middle = statistics.median(values)
     return middle if math.isfinite(middle) else "more"
 
 

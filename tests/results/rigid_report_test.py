@@ -84,7 +84,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(
             rigid_report.sums(found),
             [["s", "RRTConnect", "proof", "default", 3.0, 3, 2, 1, 0, 2.0, 6.0,
-              8.0]])
+              8.5]])
         found[1] = run(2, False, 3.0)
         self.assertEqual(rigid_report.sums(found)[0][-3:], ["more", "more", 8.0])
 
@@ -94,9 +94,15 @@ class Tables(unittest.TestCase):
             "error": "RuntimeError: exit code 3"}]
         self.assertEqual(
             rigid_report.sums(found),
-            [["s", "RRTConnect", "proof", "default", 3.0, 2, 1, 0, 1, 1.0, 3.0,
-              8.0]])
+            [["s", "RRTConnect", "proof", "default", 3.0, 2, 1, 0, 1, "more",
+              "more", 8.0]])
         self.assertTrue(math.isinf(rigid_report.seconds(found[1])))
+
+    def test_a_median_of_an_even_number_lies_between_the_two_in_the_middle(self):
+        for values, expected in (([4.0, 1.0, 2.0, 8.0], 3.0), ([1.0, 2.0, 8.0], 2.0),
+                                 ([1.0, math.inf, 2.0, math.inf], "more"),
+                                 ([1.0, math.inf, 2.0], 2.0)):
+            self.assertEqual(rigid_report.median(values), expected)
 
     def test_methods_are_compared_motion_set_by_motion_set(self):
         table = rigid_report.judge_table([{"rows": [
