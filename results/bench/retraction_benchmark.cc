@@ -37,7 +37,7 @@ double MedianSamples(const SamplerRow& row, std::size_t runs) {
   std::vector<double> samples;
   for (std::size_t i = 0; i < runs; ++i) samples.push_back(Samples(row, i));
   std::sort(samples.begin(), samples.end());
-  return samples[runs / 2];
+  return 0.5 * (samples[(runs - 1) / 2] + samples[runs / 2]);
 }
 
 Duel Compare(const SamplerRow& phong, const SamplerRow& other,
