@@ -127,6 +127,8 @@ double Quantile(std::vector<double> values, double fraction) {
   const double rest = place - std::floor(place);
   if (rest == 0.0) return *below;
   const double above = *std::min_element(below + 1, values.end());
+  // Two infinities have no difference.
+  if (above == *below) return *below;
   return *below + rest * (above - *below);
 }
 

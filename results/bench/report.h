@@ -76,7 +76,7 @@ std::string CommandLine(const std::string& program, int argc, char** argv);
 
 // Value below which the given fraction of `values` lies, linear between the two
 // nearest: 0.5 is the median, of an even number the middle of the two in the
-// middle.  0 when empty.
+// middle.  Between a value and +infinity is +infinity.  0 when empty.
 double Quantile(std::vector<double> values, double fraction);
 
 }  // namespace phongpd::bench

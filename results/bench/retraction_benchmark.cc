@@ -4,7 +4,6 @@
 // as there are branches.  The same planner, seeds and exact motion checks;
 // samples until it is solved, which no clock is in.  Writes baselines.csv, of
 // which passages_report.py makes tests and baselines.md.
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "problems/output/text.h"
 #include "results/bench/planning_measure.h"
 #include "results/bench/program.h"
+#include "results/bench/report.h"
 
 namespace phongpd::bench {
 namespace {
@@ -36,8 +36,7 @@ double Samples(const SamplerRow& row, std::size_t run) {
 double MedianSamples(const SamplerRow& row, std::size_t runs) {
   std::vector<double> samples;
   for (std::size_t i = 0; i < runs; ++i) samples.push_back(Samples(row, i));
-  std::sort(samples.begin(), samples.end());
-  return 0.5 * (samples[(runs - 1) / 2] + samples[runs / 2]);
+  return Quantile(samples, 0.5);
 }
 
 Duel Compare(const SamplerRow& phong, const SamplerRow& other,

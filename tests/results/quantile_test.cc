@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -17,6 +18,14 @@ TEST(Quantile, MedianOfAnEvenNumberIsTheMiddleOfTwo) {
   EXPECT_EQ(Quantile({4.0, 1.0}, 0.5), 2.5);
   EXPECT_EQ(Quantile({9.0, 1.0, 2.0, 4.0}, 0.5), 3.0);
   EXPECT_EQ(Quantile({9.0, 1.0, 2.0}, 0.5), 2.0);
+}
+
+// Runs without an answer took longer than any other.
+TEST(Quantile, WhatLiesNextToInfinityIsInfinite) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Quantile({kNever, 1.0, 2.0}, 0.5), 2.0);
+  EXPECT_EQ(Quantile({kNever, 1.0, kNever, 2.0}, 0.5), kNever);
+  EXPECT_EQ(Quantile({kNever, 1.0, kNever, kNever}, 0.5), kNever);
 }
 
 // Another route: sorted, and as far above one half of them as below the other.
