@@ -21,7 +21,7 @@ FINE = [("peg:0.1", 3), ("flange:0.15", 1), ("lock:0.05", 2), ("alpha:1.5", 2),
 # What is wanted in the end takes days; this takes about an hour on two cores.
 # Where there is room many planners are asked.  Where it is tight ours runs with all its
 # seeds first, as OMPL's take their whole limit where they find nothing: there they have
-# three seeds, and all where they find paths.
+# three seeds, and all where most of them find paths.
 EASY, EASY_LIMIT = ["window:4", "peg:1.5", "alpha:2.5"], 20
 TIGHT, TIGHT_LIMIT = ["piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
                       "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"], 60

@@ -137,6 +137,15 @@ class Tables(unittest.TestCase):
         self.assertEqual(len(said), 1)
         self.assertIn("s 1.5 and 4.5 (1)", said[0])
 
+    def test_no_planner_is_the_best_where_none_has_a_right_path(self):
+        ours = dict(run(1, True, 1.0), planner="phongpd")
+        others_found = [run(1, False, 3.0), run(2, True, 1.0, wrong=1)]
+        said, = rigid_report._ours(rigid_report.sums([ours, *others_found]))
+        self.assertIn("OMPL's planners 0 of 2 runs right", said)
+        others_found.append(run(3, True, 2.0))
+        said, = rigid_report._ours(rigid_report.sums([ours, *others_found]))
+        self.assertIn("best of OMPL 1 of 3 right", said)
+
     def test_others_are_compared_with_ours_on_the_same_motions(self):
         table = others.peers_table([
             {"rows": [peer("PhongPD", 0.5), peer("hpp-core", 2.0, misses=1)]},
