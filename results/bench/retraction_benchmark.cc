@@ -2,8 +2,9 @@
 // Purpose: retraction along all Phong branches against baselines of equal
 // strength: all local Euclidean projections, and as many random contact points
 // as there are branches.  The same planner, seeds and exact motion checks;
-// samples until it is solved, which no clock is in.  Writes baselines.csv, of
-// which passages_report.py makes tests and baselines.md.
+// samples until it is solved, which no clock is in but that of the limit.
+// Writes baselines.csv, of which passages_report.py makes tests and
+// baselines.md.
 #include <cmath>
 #include <iostream>
 #include <limits>
